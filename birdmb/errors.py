@@ -1,0 +1,17 @@
+"""Every error that birdmb raises on purpose: one clear sentence each, for people."""
+
+
+class BirdmbError(Exception):
+    """Base of all deliberate errors; its text is fit to be shown to a user as it is."""
+
+
+class TopologyError(BirdmbError):
+    """A topology file, a dotted name or a value in it is wrong; the text names file, key and value."""
+
+
+class OrbitError(BirdmbError):
+    """A computation on an orbit could not be carried through."""
+
+
+class StateError(BirdmbError):
+    """A flow left the states in which its model means anything (NaN, overflow, out of validity)."""
