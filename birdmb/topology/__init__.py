@@ -1,0 +1,38 @@
+"""The bird as data: topology files, their validation, and dotted names for every value."""
+
+from birdmb.topology.bird import Bird, Segments
+from birdmb.topology.loading import load_bird
+from birdmb.topology.parts import (
+    BONES,
+    PRESETS,
+    Air,
+    Body,
+    Bone,
+    Discretisation,
+    Feather,
+    Gait,
+    Joint,
+    Root,
+    Segment,
+    Wing,
+)
+from birdmb.topology.values import parse_assignment
+
+__all__ = [
+    "BONES",
+    "PRESETS",
+    "Air",
+    "Bird",
+    "Body",
+    "Bone",
+    "Discretisation",
+    "Feather",
+    "Gait",
+    "Joint",
+    "Root",
+    "Segment",
+    "Segments",
+    "Wing",
+    "load_bird",
+    "parse_assignment",
+]

@@ -1,0 +1,30 @@
+"""Reading a bird from a topology file."""
+
+import tomllib
+from os import PathLike
+from pathlib import Path
+
+from birdmb.errors import TopologyError
+from birdmb.topology.bird import Bird
+from birdmb.topology.messages import validated
+
+
+def load_bird(path: str | PathLike[str]) -> Bird:
+    """Read and validate a topology file (TOML).
+
+    Raises `TopologyError`, one sentence naming file, key, value and what would be right, if the
+    file cannot be read or does not describe a possible bird.
+    """
+    origin = str(path)
+    try:
+        document = tomllib.loads(Path(path).read_text(encoding="utf-8-sig"))
+    except OSError as error:
+        reason = (error.strerror or "unknown reason").lower()
+        raise TopologyError(
+            f"{origin}: cannot be read ({reason}); it must be a topology file"
+        ) from error
+    except UnicodeDecodeError as error:
+        raise TopologyError(f"{origin}: is no text in UTF-8; a topology file must be") from error
+    except tomllib.TOMLDecodeError as error:
+        raise TopologyError(f"{origin}: is not valid TOML: {error}") from error
+    return validated(Bird, document, origin)

@@ -1,0 +1,172 @@
+"""One sentence, in the user's own names, for whatever is wrong with a topology document."""
+
+import difflib
+import json
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any, TypeVar, get_args
+
+from pydantic import BaseModel, ValidationError
+from pydantic.fields import FieldInfo
+from pydantic_core import ErrorDetails, PydanticCustomError
+
+from birdmb.errors import TopologyError
+
+Location = tuple[str | int, ...]
+ModelT = TypeVar("ModelT", bound=BaseModel)
+
+# Marks the branches of a tagged union, which pydantic reports as if they were keys of the document.
+BRANCH = "branch:"
+
+_EXPECTED = {
+    "dict_type": "must be a table",
+    "float_type": "must be a number",
+    "int_type": "must be a whole number",
+    "string_type": "must be a text in quotes",
+    "bool_type": "must be true or false",
+    "tuple_type": "must be a list",
+    "missing": "must be a list of 3 entries",
+    "too_long": "must be a list of 3 entries",
+    "model_type": "must be a table",
+    "greater_than": "must be more than {gt:g}",
+    "greater_than_equal": "must be {ge:g} or more",
+    "less_than_equal": "must be {le:g} or less",
+}
+
+
+def problem(text: str, key: str = "") -> PydanticCustomError:
+    """Return the error a validator raises to have `text` shown as it is.
+
+    `key` is the key inside the validated table that is to blame, if it is not the table itself.
+    """
+    return PydanticCustomError("problem", "{text}", {"text": text, "key": key})
+
+
+def shown(value: object) -> str:
+    """Return `value` as it would stand in a TOML file, cut short if it is long."""
+    text = json.dumps(value, default=str)
+    text = {"NaN": "nan", "Infinity": "inf", "-Infinity": "-inf"}.get(text, text)
+    return text if len(text) <= 80 else text[:77] + "..."
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """Return up to three known words like `word`, the most similar first."""
+    known = list(known)
+    similar = difflib.get_close_matches(word, known)
+    return ", ".join(similar or difflib.get_close_matches(word, known, cutoff=0.0))
+
+
+def validated(model: type[ModelT], document: Mapping[str, Any], origin: str) -> ModelT:
+    """Return `document` as a valid `model`.
+
+    Raises `TopologyError`, starting with `origin` (a file, say), for the problem that stands first
+    in the document.
+    """
+    try:
+        return model.model_validate(document)
+    except ValidationError as error:
+        found = [
+            (_location(detail, document), detail)
+            for detail in error.errors(include_url=False)
+            # A default that waits for a key that is itself wrong is no second mistake.
+            if detail["type"] != "default_factory_not_called"
+        ]
+    found.sort(key=lambda item: _file_order(item[0], document))
+    location, detail = found[0]
+    more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
+    key = _dotted(location, document)
+    raise TopologyError(f"{origin}: {key}: {_explanation(model, location, detail)}{more}")
+
+
+def _explanation(model: type[BaseModel], location: Location, detail: ErrorDetails) -> str:
+    kind = detail["type"]
+    if kind == "problem":
+        return str(detail["ctx"]["text"])
+    owner, field = _field(model, location)
+    if kind == "extra_forbidden":
+        return f"unknown key; the nearest known: {nearest(str(location[-1]), _keys_of(owner))}"
+    meaning = field.description if field else None
+    if kind == "missing" and isinstance(detail["loc"][-1], str):
+        return f"missing; it should give the {meaning}"
+    if kind in _EXPECTED:
+        expected = _EXPECTED[kind].format(**detail.get("ctx", {}))
+    else:
+        expected = detail["msg"].replace("Input should be", "must be").replace("'", '"')
+    return f"{expected}, not {shown(detail['input'])}" + (f" ({meaning})" if meaning else "")
+
+
+def _location(detail: ErrorDetails, document: object) -> Location:
+    """Return where in the document the user finds the error."""
+    parts = [p for p in detail["loc"] if not (isinstance(p, str) and p.startswith(BRANCH))]
+    if detail["type"] == "missing" and isinstance(parts[-1], int):
+        parts.pop()
+    if key := detail.get("ctx", {}).get("key"):
+        parts.append(key)
+    for part in parts[:-1]:
+        document = _inside(document, part)
+    last = parts[-1] if parts else ""
+    # An angle given in degrees is reported under the key that the user wrote.
+    if isinstance(document, Mapping) and last not in document and f"{last}_deg" in document:
+        parts[-1] = f"{last}_deg"
+    return tuple(parts)
+
+
+def _inside(document: object, part: str | int) -> object:
+    if isinstance(document, Mapping):
+        return document.get(part)
+    if isinstance(document, list | tuple) and isinstance(part, int) and part < len(document):
+        return document[part]
+    return None
+
+
+def _file_order(location: Location, document: object) -> list[int]:
+    order = []
+    for part in location:
+        if isinstance(document, Mapping):
+            keys = list(document)
+            order.append(keys.index(part) if part in document else len(keys))
+        else:
+            order.append(part if isinstance(part, int) else 0)
+        document = _inside(document, part)
+    return order
+
+
+def _dotted(location: Location, document: object) -> str:
+    """Return the dotted name of a place; an entry of a list goes by its name or its number."""
+    name = ""
+    for part in location:
+        document = _inside(document, part)
+        if isinstance(part, str):
+            name += f".{part}"
+        elif isinstance(label := _inside(document, "name"), str):
+            name = f".{label}" if name == ".joints" else f"{name}.{label}"
+        else:
+            name += f" #{part + 1}"
+    return name.removeprefix(".")
+
+
+def _field(model: type[BaseModel], location: Location) -> tuple[type[BaseModel], FieldInfo | None]:
+    """Return the field that a location ends in, or the last one known, and the model it is in."""
+    owner, field = model, None
+    for part in location:
+        if isinstance(part, str):
+            owner = model
+            known = model.model_fields.get(part) or model.model_fields.get(
+                part.removesuffix("_deg")
+            )
+            if known is None:
+                break
+            field = known
+            model = next(_models_in(field.annotation), model)
+    return owner, field
+
+
+def _models_in(annotation: Any) -> Iterator[type[BaseModel]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for argument in get_args(annotation):
+        yield from _models_in(argument)
+
+
+def _keys_of(model: type[BaseModel]) -> list[str]:
+    angles = getattr(model, "angles", ())
+    return [*model.model_fields, *(f"{angle}_deg" for angle in angles)]

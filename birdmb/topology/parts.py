@@ -1,0 +1,296 @@
+"""The parts of a bird as a topology file gives them: immutable, validated, SI and radians.
+
+Right wing; the left one is its mirror image. Body frame: x forward, y right, z down. Segment frame,
+bone straight out: the same directions, with y along the bone outwards.
+"""
+
+import math
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Annotated, Any, ClassVar, Literal, Self
+
+import numpy as np
+from annotated_types import Ge, Gt, Le
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Discriminator,
+    Field,
+    Strict,
+    StrictBool,
+    Tag,
+    TypeAdapter,
+    field_serializer,
+    field_validator,
+    model_validator,
+)
+from pydantic_core import PydanticCustomError
+
+from birdmb.topology.messages import BRANCH, problem, shown
+
+Bone = Literal["humerus", "forearm", "hand"]
+BONES: tuple[Bone, ...] = ("humerus", "forearm", "hand")  # from the shoulder outwards
+
+# Strict: neither "4.0" nor true is a number.
+Number = Annotated[float, Strict()]
+Positive = Annotated[Number, Gt(0)]
+NonNegative = Annotated[Number, Ge(0)]
+Vector = tuple[Number, Number, Number]
+Tensor = tuple[Vector, Vector, Vector]
+Shares = tuple[tuple[str, float], ...]
+
+_ROUND_OFF = 1e-9  # relative; inertia tensors are often typed with few digits
+
+
+class Part(BaseModel):
+    """A table of the topology file. Keys in `angles` may be given in degrees as `<key>_deg`."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+    angles: ClassVar[tuple[str, ...]] = ()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _degrees_to_radians(cls, data: Any) -> Any:
+        if not isinstance(data, Mapping):
+            return data
+        given = dict(data)
+        for angle in cls.angles:
+            in_degrees = f"{angle}_deg"
+            if in_degrees not in given:
+                continue
+            if angle in given:
+                raise problem(f"given twice, as {angle} and {in_degrees}; keep one", in_degrees)
+            value = given[angle] = given.pop(in_degrees)
+            # What is no number is left as it is, for the check of the field to complain about.
+            if isinstance(value, float) or (isinstance(value, int) and abs(value) < 1e9):
+                given[angle] = value if isinstance(value, bool) else math.radians(value)
+        return given
+
+
+class Air(Part):
+    """The air the bird flies in."""
+
+    density: NonNegative = Field(default=1.225, description="density of the air, kg/m3")
+
+
+class Gait(Part):
+    """What all joint drivers have in common."""
+
+    frequency: Positive = Field(description="wingbeats per second, Hz")
+
+
+class Body(Part):
+    """The body without its wings."""
+
+    mass: Positive = Field(description="mass of the body without its wings, kg")
+    inertia_yy: Positive = Field(
+        description="pitch moment of inertia about the body's centre of mass, kg m2"
+    )
+
+
+class Discretisation(Part):
+    """How finely, and by which construction, the lifting line is computed."""
+
+    scheme: Literal["orthogonal", "one-step"] = Field(
+        description="construction of the lifting line: orthogonal, or one-step as published"
+    )
+    elements: Annotated[int, Strict(), Ge(2)] = Field(description="elements per wing, 2 or more")
+    rounding: Annotated[Number, Gt(0), Le(0.5)] = Field(
+        description="rounding of the edges' corners, a fraction above 0 up to 0.5"
+    )
+
+
+PRESETS: Mapping[str, Discretisation] = MappingProxyType(
+    {
+        "converged": Discretisation(scheme="orthogonal", elements=32, rounding=0.25),
+        "published": Discretisation(scheme="one-step", elements=8, rounding=0.25),
+    }
+)
+
+_CHOICE = (
+    f"must be {' or '.join(map(shown, PRESETS))}, a whole number of elements per wing, "
+    "or a table of scheme, elements and rounding"
+)
+
+
+def _known_preset(name: str) -> str:
+    if name not in PRESETS:
+        raise PydanticCustomError("choice", _CHOICE)
+    return name
+
+
+def _kind_of_discretisation(value: object) -> str | None:
+    if isinstance(value, str):
+        return f"{BRANCH}preset"
+    if isinstance(value, int) and not isinstance(value, bool):
+        return f"{BRANCH}elements"
+    return f"{BRANCH}table" if isinstance(value, Mapping | Discretisation) else None
+
+
+class Root(Part):
+    """The right shoulder joint, from the body's centre of mass in the body frame."""
+
+    x: Number = Field(description="how far the shoulder is ahead of the centre of mass, m")
+    y: NonNegative = Field(description="how far the shoulder is to the right, m")
+    z: Number = Field(default=0.0, description="how far the shoulder is below, m")
+
+
+class Wing(Part):
+    """Where the wing is attached, how thick it is and how finely it is computed."""
+
+    root: Root = Field(description="position of the right shoulder, a table of x, y and z in m")
+    half_thickness: NonNegative = Field(
+        description="distance of the leading edge and of the feather roots from the bones, m"
+    )
+    discretisation: Annotated[
+        Annotated[str, AfterValidator(_known_preset), Tag(f"{BRANCH}preset")]
+        | Annotated[int, Ge(2), Tag(f"{BRANCH}elements")]
+        | Annotated[Discretisation, Tag(f"{BRANCH}table")],
+        Discriminator(
+            _kind_of_discretisation, custom_error_type="choice", custom_error_message=_CHOICE
+        ),
+    ] = "converged"
+
+    @property
+    def resolved_discretisation(self) -> Discretisation:
+        """The numbers behind `discretisation`; a mere number of elements is else as converged."""
+        if isinstance(self.discretisation, Discretisation):
+            return self.discretisation
+        if isinstance(self.discretisation, str):
+            return PRESETS[self.discretisation]
+        return PRESETS["converged"].model_copy(update={"elements": self.discretisation})
+
+
+def _from_diagonal(value: Any) -> Any:
+    if not isinstance(value, list | tuple) or any(isinstance(row, list | tuple) for row in value):
+        return value
+    if len(value) != 3:
+        raise problem(f"must be three moments or a 3x3 tensor, not {shown(value)}")
+    return [[moment if i == j else 0.0 for j in range(3)] for i, moment in enumerate(value)]
+
+
+def _possible_inertia(inertia: Tensor) -> Tensor:
+    tensor = np.array(inertia)
+    round_off = _ROUND_OFF * np.abs(tensor).max()
+    if np.abs(tensor - tensor.T).max() > round_off:
+        raise problem(f"{shown(inertia)} is not symmetric; an inertia tensor must be")
+    moments = np.linalg.eigvalsh(tensor)[::-1]
+    listed = ", ".join(f"{moment:.6g}" for moment in moments)
+    if moments[-1] < -round_off:
+        raise problem(f"principal moments {listed} kg m2 must not be negative")
+    if moments[0] > moments[1] + moments[2] + round_off:
+        raise problem(
+            f"principal moments {listed} kg m2 break the triangle inequality (no body has them); "
+            "each must be at most the sum of the other two"
+        )
+    return inertia
+
+
+class Segment(Part):
+    """A rigid segment of the wing; zero inertia makes it a point mass."""
+
+    length: Positive = Field(description="length of the bone, m")
+    mass: NonNegative = Field(description="mass of the segment of one wing, kg")
+    inertia: Annotated[
+        Tensor, BeforeValidator(_from_diagonal), AfterValidator(_possible_inertia)
+    ] = Field(
+        description="inertia about the segment's centre of mass, kg m2: three moments about "
+        "x, y, z or a 3x3 tensor"
+    )
+    centre_of_mass: Vector = Field(
+        default_factory=lambda validated: (0.0, validated["length"] / 2, 0.0),
+        description="centre of mass from the segment's root, [x, y, z] in m",
+    )
+
+
+class Joint(Part):
+    """A one-axis joint at the root of the segment it carries.
+
+    The driver is q(t) = offset + amplitude sin(2 pi f t + phase). A prescribed joint follows it
+    exactly, a compliant one through a spring and a damper.
+    """
+
+    angles: ClassVar[tuple[str, ...]] = ("offset", "amplitude", "phase")
+
+    name: str = Field(description='name of the joint, "place.motion" such as "shoulder.flap"')
+    segment: Bone = Field(description="segment that the joint carries")
+    axis: Vector = Field(description="direction of the axis, [x, y, z] in the parent's frame")
+    mode: Literal["prescribed", "compliant"] = Field(
+        default="prescribed", description="whether the joint follows its driver or a spring"
+    )
+    stiffness: NonNegative | None = Field(default=None, description="joint stiffness, N m/rad")
+    damping: NonNegative | None = Field(default=None, description="joint damping, N m s/rad")
+    offset: Number = Field(default=0.0, description="mean angle; rad, degrees as offset_deg")
+    amplitude: Number = Field(default=0.0, description="amplitude; rad, degrees as amplitude_deg")
+    phase: Number = Field(default=0.0, description="phase at t = 0; rad, degrees as phase_deg")
+    twist: StrictBool = Field(
+        default=False, description="whether the angle grows along the segment from none at its root"
+    )
+
+    @field_validator("name")
+    @classmethod
+    def _place_and_motion(cls, name: str) -> str:
+        place, dot, motion = name.partition(".")
+        if not (
+            dot and all(p.replace("_", "").replace("-", "").isalnum() for p in (place, motion))
+        ):
+            raise problem(f'must read "<place>.<motion>", such as "wrist.sweep", not {shown(name)}')
+        return name
+
+    @field_validator("axis")
+    @classmethod
+    def _unit_axis(cls, axis: Vector) -> Vector:
+        length = math.hypot(*axis)
+        if length == 0:
+            raise problem("[0, 0, 0] has no direction; for instance [0, 1, 0] is outwards")
+        if abs(length - 1) < 1e-12:  # so that an axis read back stays the same to the last bit
+            return axis
+        x, y, z = (component / length for component in axis)
+        return x, y, z
+
+    @model_validator(mode="after")
+    def _compliance_is_complete(self) -> Self:
+        for key in ("stiffness", "damping"):
+            if self.mode == "compliant" and getattr(self, key) is None:
+                raise problem(f"missing; a compliant joint needs a {key} of 0 or more", key)
+        return self
+
+
+_SHARES: TypeAdapter[dict[str, float]] = TypeAdapter(
+    dict[str, Number], config=ConfigDict(allow_inf_nan=False)
+)
+
+
+def _pairs(shares: Any) -> Any:
+    return shares if isinstance(shares, tuple) else tuple(_SHARES.validate_python(shares).items())
+
+
+class Feather(Part):
+    """A straight feather rooted on a bone, following that bone and shares of joint angles."""
+
+    angles: ClassVar[tuple[str, ...]] = ("rest_angle",)
+
+    name: str = Field(description='name of the feather, such as "1"', pattern=r"^[\w-]+$")
+    bone: Bone = Field(description="bone that the feather is rooted on")
+    position: Annotated[NonNegative, Le(1)] = Field(
+        description="place of the root along the bone, 0 at its root to 1 at its end"
+    )
+    length: Positive = Field(description="length of the feather, m")
+    rest_angle: Number = Field(
+        default=0.0,
+        description="angle outwards from straight aft; rad, degrees as rest_angle_deg",
+    )
+    shares: Annotated[Shares, BeforeValidator(_pairs)] = Field(
+        default=(), description="shares of joint angles, each under the joint's name in quotes"
+    )
+
+    @field_serializer("shares")
+    def _as_table(self, shares: Shares) -> dict[str, float]:
+        return dict(shares)
+
+    @property
+    def place(self) -> float:
+        """Where along the wing the root is: 0 shoulder, 1 elbow, 2 wrist, 3 hand tip."""
+        return BONES.index(self.bone) + self.position

@@ -1,0 +1,130 @@
+"""Dotted names: one way to read and to vary every value of a bird, in files, Python and studies."""
+
+import math
+import tomllib
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from birdmb.errors import TopologyError
+from birdmb.topology.messages import Location, nearest, shown, validated
+from birdmb.topology.parts import Part, Wing
+
+if TYPE_CHECKING:
+    from birdmb.topology.bird import Bird
+
+_RESOLUTION = "wing.discretisation"
+
+
+def parse_assignment(text: str) -> tuple[str, Any]:
+    """Split `"shoulder.flap.stiffness=20"` into a dotted name and a value.
+
+    The value is read as TOML; what is not TOML is a text, so that `wing.discretisation=published`
+    needs no quotes. Raises `TopologyError` where the name, the `=` or the value is missing.
+    """
+    name, equals, value = (part.strip() for part in text.partition("="))
+    if not (name and equals and value):
+        raise TopologyError(f"{shown(text)} must read NAME=VALUE, for instance body.mass=1.3")
+    try:
+        return name, tomllib.loads(f"value = {value}")["value"]
+    except tomllib.TOMLDecodeError:
+        return name, value
+
+
+def named_places(bird: "Bird") -> dict[str, Location]:
+    """Return every dotted name of a bird with the place of its value in the bird's document."""
+    return dict(_walk(bird, "", ()))
+
+
+def _walk(part: Part, prefix: str, place: Location) -> Iterator[tuple[str, Location]]:
+    for key in type(part).model_fields:
+        child, here, name = getattr(part, key), (*place, key), f"{prefix}{key}"
+        if key in ("joints", "feathers"):
+            for i, item in enumerate(child):
+                label = item.name if key == "joints" else f"{key}.{item.name}"
+                yield from _walk(item, f"{label}.", (*here, i))
+        elif isinstance(part, Wing) and key == "discretisation":
+            yield name, here
+            yield from _walk(part.resolved_discretisation, f"{name}.", here)
+        elif isinstance(child, Part):
+            yield from _walk(child, f"{name}.", here)
+        elif key != "name" or not place:  # a joint or feather is not renamed: names lead to it
+            yield name, here
+        if key in part.angles:
+            yield f"{name}_deg", (*place, f"{key}_deg")
+        if key == "shares":
+            yield from ((f"{name}.{joint}", (*here, joint)) for joint, _ in child)
+
+
+def value_of(bird: "Bird", name: str) -> Any:
+    """Return the value of a dotted name; see `Bird.value`."""
+    *parents, key = _place(bird, name, named_places(bird))
+    table: Any = _document(bird, resolved=_is_resolution(name), as_written=False)
+    for part in parents:
+        table = table[part]
+    if key in table:
+        return table[key]
+    return math.degrees(table[_twin(key)])
+
+
+def varied(bird: "Bird", values: Mapping[str, Any]) -> "Bird":
+    """Return the bird with other values, validated as a whole; see `Bird.with_values`."""
+    known = named_places(bird)
+    resolved = any(map(_is_resolution, values))
+    if resolved and _RESOLUTION in values:
+        raise TopologyError(
+            f"{bird.name}: {_RESOLUTION} is set as a whole and in parts; keep one of the two"
+        )
+    document = _document(bird, resolved=resolved, as_written=True)
+    changes = []
+    for name, value in values.items():
+        *parents, key = _place(bird, name, known)
+        table: Any = document
+        for part in parents:
+            table = table[part] if isinstance(part, int) else table.setdefault(part, {})
+        table.pop(_twin(key), None)  # the same angle in the other unit
+        changes.append((table, key, value))
+    for table, key, value in changes:
+        table[key] = value.tolist() if isinstance(value, np.ndarray | np.generic) else value
+    for joint in document["joints"]:
+        _free_if_sprung(joint, values)
+    changed = ", ".join(f"{name} = {shown(value)}" for name, value in values.items())
+    return validated(type(bird), document, f"{bird.name} (with {changed})")
+
+
+def _free_if_sprung(joint: dict[str, Any], values: Mapping[str, Any]) -> None:
+    """Make a joint compliant that was given a spring or a damper, unless its mode was given too."""
+    given = {
+        key for key in ("stiffness", "damping") if values.get(f"{joint['name']}.{key}") is not None
+    }
+    if given and f"{joint['name']}.mode" not in values:
+        joint["mode"] = "compliant"
+    if "stiffness" in given and joint.get("damping") is None:
+        joint["damping"] = 0.0
+
+
+def _document(bird: "Bird", *, resolved: bool, as_written: bool) -> dict[str, Any]:
+    # Defaults are left out where they must follow a change, as the mid-bone follows the length.
+    document = bird.model_dump(exclude_unset=as_written)
+    if resolved:
+        document["wing"]["discretisation"] = bird.wing.resolved_discretisation.model_dump()
+    return document
+
+
+def _place(bird: "Bird", name: str, known: Mapping[str, Location]) -> Location:
+    if name not in known:
+        raise TopologyError(
+            f"{bird.name}: no value is called {shown(name)}; the nearest: {nearest(name, known)}"
+        )
+    return known[name]
+
+
+def _is_resolution(name: str) -> bool:
+    return name.startswith(f"{_RESOLUTION}.")
+
+
+def _twin(key: str | int) -> str:
+    """Return the key of the same angle in the other unit."""
+    key = str(key)
+    return key.removesuffix("_deg") if key.endswith("_deg") else f"{key}_deg"
