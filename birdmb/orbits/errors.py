@@ -1,0 +1,52 @@
+"""What can go wrong with an orbit, as types; each text says how far it got and what to try."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from birdmb._typing import FloatArray
+from birdmb.errors import OrbitError
+
+if TYPE_CHECKING:
+    from birdmb.orbits.newton import Iteration
+
+
+class ArgumentError(OrbitError, ValueError):
+    """An argument has the wrong shape or value, or two arguments contradict each other."""
+
+
+class ConvergenceError(OrbitError):
+    """No orbit was found.
+
+    Attributes:
+        best_x: state at the start of the best orbit reached, shape (n,).
+        residual: its closure error (largest component, units of the states).
+        history: the accepted iterations that led there.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        best_x: FloatArray,
+        residual: float,
+        history: Sequence[Iteration] = (),
+    ) -> None:
+        """Keep what had been reached."""
+        # All arguments go to the base class: that is what keeps the error picklable for executors.
+        super().__init__(message, best_x, residual, history)
+        self.best_x = best_x
+        self.residual = residual
+        self.history = tuple(history)
+
+    def __str__(self) -> str:
+        """Return the sentence alone."""
+        return str(self.args[0])
+
+
+class SingularJacobianError(ConvergenceError):
+    """The shooting equations have no unique solution at the point reached."""
+
+
+class EquilibriumError(ConvergenceError):
+    """A cycle was asked for, and the iteration ended on an equilibrium or at period zero."""

@@ -1,0 +1,117 @@
+"""What the orbit toolbox asks of a model: three members are needed, the others are used if present.
+
+A model is any object that satisfies `Model`. Each optional protocol below adds one ability; nothing
+needs to be inherited.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Protocol, runtime_checkable
+
+from birdmb._typing import FloatArray
+
+
+@runtime_checkable
+class Model(Protocol):
+    """A flow with named states.
+
+    `period` is the period of the forcing in s, or `None` for an autonomous system, whose cycles
+    have an unknown period. `flow(x0, t0, t1)` returns the state (n,) at `t1` of the solution
+    through `x0` (n,) at `t0`; it raises `StateError`, or returns non-finite values, where the model
+    has no meaning. Use with a process pool requires the model to be picklable.
+    """
+
+    @property
+    def state_names(self) -> tuple[str, ...]:
+        """Names of the n states."""
+
+    @property
+    def period(self) -> float | None:
+        """Forcing period in s, `None` if autonomous."""
+
+    def flow(self, x0: FloatArray, t0: float, t1: float, /) -> FloatArray:
+        """State at t1."""
+
+
+@runtime_checkable
+class VariationalModel(Protocol):
+    """The model differentiates its own flow."""
+
+    def flow_jacobian(self, x0: FloatArray, t0: float, t1: float) -> tuple[FloatArray, FloatArray]:
+        """State at t1, (n,), and its derivative with respect to x0, (n, n)."""
+
+
+@runtime_checkable
+class HasRhs(Protocol):
+    """The model has a right-hand side dx/dt = rhs(t, x)."""
+
+    def rhs(self, t: float, x: FloatArray, /) -> FloatArray:
+        """Time derivative of the state, (n,)."""
+
+
+@runtime_checkable
+class HasDivergence(Protocol):
+    """The model integrates the divergence of its right-hand side (for Liouville's formula)."""
+
+    def divergence_integral(self, x0: FloatArray, t0: float, t1: float, /) -> float:
+        """Integral of trace(d rhs/dx) along the solution from t0 to t1."""
+
+
+@runtime_checkable
+class HasInitialGuess(Protocol):
+    """The model proposes a state near its orbit."""
+
+    def initial_guess(self) -> FloatArray:
+        """State (n,) at the start time."""
+
+
+@runtime_checkable
+class HasStateScale(Protocol):
+    """The model knows the typical sizes of its states."""
+
+    @property
+    def state_scale(self) -> FloatArray | None:
+        """Typical sizes, (n,), positive, in the units of the states; `None` to have them found."""
+
+
+@runtime_checkable
+class HasStateUnits(Protocol):
+    """The model names the units of its states."""
+
+    @property
+    def state_units(self) -> tuple[str, ...]:
+        """One unit per state."""
+
+
+@runtime_checkable
+class HasFlowAccuracy(Protocol):
+    """The model declares the relative accuracy of its flow and of its flow Jacobian."""
+
+    @property
+    def flow_accuracy(self) -> float:
+        """Relative error, e.g. of the time integration."""
+
+
+class HasStates(Protocol):
+    """A solution at given times."""
+
+    @property
+    def states(self) -> FloatArray:
+        """States, (number of times, n)."""
+
+
+@runtime_checkable
+class HasTrajectory(Protocol):
+    """The model gives a whole solution in one integration."""
+
+    def trajectory(
+        self, x0: FloatArray, t0: float, t1: float, times: FloatArray | None = None
+    ) -> HasStates:
+        """Solution from t0 to t1 at `times`; the result has `.states` (len(times), n)."""
+
+
+@runtime_checkable
+class HasLimitCycleType(Protocol):
+    """The model brings its own subclass of `LimitCycle`."""
+
+    limit_cycle_type: type[Any]

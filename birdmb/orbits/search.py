@@ -1,0 +1,189 @@
+"""Finding a periodic orbit from a guess."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import Executor
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from birdmb._typing import FloatArray
+from birdmb.errors import StateError
+from birdmb.orbits.cycle import LimitCycle
+from birdmb.orbits.errors import ArgumentError, ConvergenceError, EquilibriumError
+from birdmb.orbits.linearisation import linearise
+from birdmb.orbits.newton import Iteration, SolverMethod, solve
+from birdmb.orbits.problem import HasInitialGuess, HasLimitCycleType, HasStateScale, Model
+from birdmb.orbits.segments import Segments, choose_jacobian, sample, typical_sizes
+from birdmb.orbits.shooting import ShootingEquations
+
+_SAMPLES_PER_SEGMENT = 8
+# A cycle of less than this part of the state scale is the neighbourhood of an equilibrium.
+_SMALLEST_AMPLITUDE = 1e-5
+
+
+def find_limit_cycle(
+    model: Model,
+    guess: npt.ArrayLike | None = None,
+    *,
+    period_guess: float | None = None,
+    segments: int = 1,
+    start_time: float = 0.0,
+    method: SolverMethod = "newton",
+    tolerance: float = 1e-9,
+    max_iterations: int = 50,
+    jacobian: Literal["auto", "variational", "finite-differences"] = "auto",
+    executor: Executor | None = None,
+    callback: Callable[[Iteration], None] | None = None,
+) -> Any:
+    """Find a periodic orbit of a model by multiple shooting, and its Floquet multipliers.
+
+    Forced systems (`model.period` given): the states at the starts of the segments are unknown.
+    Autonomous ones (`model.period` is `None`): so is the period. Only steps that reduce the closure
+    error are accepted. Sources: Keller (1968); Seydel (2010), chapter 7.
+
+    Args:
+        model: anything that satisfies `birdmb.orbits.Model`.
+        guess: state (n,) at `start_time`, or states (segments, n) at the starts of the segments; by
+            default `model.initial_guess()`.
+        period_guess: guess of the period in s, needed if and only if the system is autonomous.
+        segments: number M of shooting segments; more of them tame strongly unstable orbits.
+        start_time: time of the first state, in s.
+        method: "newton" (line search) or "levenberg-marquardt" (takes longer, starts further away).
+        tolerance: Euclidean norm of the closure errors accepted, in units of the state scale.
+        max_iterations: accepted steps allowed.
+        jacobian: "variational" where the model differentiates its flow, "finite-differences"
+            (central), or "auto": the first where possible.
+        executor: spreads flows over workers; results do not depend on it.
+        callback: called with every `Iteration` as it is accepted, the guess first.
+
+    Returns:
+        A `LimitCycle`, or the subclass that the model names as `limit_cycle_type`.
+
+    Raises:
+        ArgumentError: a guess of the wrong shape, or a missing or superfluous period guess.
+        StateError: the flow fails at the guess.
+        ConvergenceError: no orbit was found; it keeps the best point.
+        SingularJacobianError: the equations have no unique solution where the search ended.
+        EquilibriumError: the search ended on an equilibrium, or at period zero.
+    """
+    autonomous, period = _period(model, period_guess)
+    if segments < 1:
+        raise ArgumentError(f"segments must be at least 1, not {segments}.")
+    jacobian_method = choose_jacobian(model, jacobian)
+    start = _guess(model, guess, segments)
+    try:
+        path = _guess_path(model, start, start_time, period, segments)
+        scale = typical_sizes(model, path)
+        points = path[:: len(path) // segments] if start.ndim == 1 else start
+        work = Segments(model, scale, start_time, jacobian_method, executor)
+        equations = ShootingEquations(work, period, autonomous)
+        equations.residual(equations.pack(points, period))
+    except StateError as error:
+        raise StateError(f"The search cannot start from this guess: {error}") from error
+    try:
+        u, residual, iterations = solve(
+            equations,
+            equations.pack(points, period),
+            method=method,
+            tolerance=tolerance,
+            max_iterations=max_iterations,
+            callback=callback,
+        )
+    except ConvergenceError as error:
+        if autonomous:
+            best = error.history[-1]
+            _reject_equilibrium(work, best.x, best.period, error.residual, error.history)
+        raise
+    points, period = equations.unpack(u)
+    closure = equations.closure(residual)
+    if autonomous:
+        _reject_equilibrium(work, points[0], period, closure, iterations)
+    found = linearise(equations, points, period)
+    kind = model.limit_cycle_type if isinstance(model, HasLimitCycleType) else LimitCycle
+    return kind(
+        model=model,
+        x0=points[0],
+        state_names=tuple(model.state_names),
+        period=period,
+        start_time=start_time,
+        points=points,
+        state_scale=scale,
+        residual=closure,
+        iterations=iterations,
+        monodromy=found.spectrum.monodromy,
+        segment_jacobians=found.factors,
+        multipliers=found.spectrum.multipliers,
+        multiplier_errors=found.spectrum.errors,
+        modes=found.spectrum.modes,
+        jacobian_method=jacobian_method,
+    )
+
+
+def _period(model: Model, period_guess: float | None) -> tuple[bool, float]:
+    if model.period is not None:
+        if period_guess is not None:
+            raise ArgumentError(
+                f"period_guess is for autonomous systems; this one is forced with period "
+                f"{model.period:.6g} s."
+            )
+        return False, float(model.period)
+    if period_guess is None:
+        raise ArgumentError("an autonomous system (period None) needs a period_guess.")
+    if not 0 < period_guess < np.inf:
+        raise ArgumentError(f"period_guess must be positive and finite, not {period_guess}.")
+    return True, float(period_guess)
+
+
+def _guess(model: Model, guess: npt.ArrayLike | None, segments: int) -> FloatArray:
+    if guess is None:
+        if not isinstance(model, HasInitialGuess):
+            raise ArgumentError("this model proposes no initial guess; pass one.")
+        guess = model.initial_guess()
+    start = np.array(guess, float)
+    n = len(model.state_names)
+    if start.shape not in {(n,), (segments, n)}:
+        raise ArgumentError(
+            f"guess has shape {start.shape}; the states {', '.join(model.state_names)} need "
+            f"({n},), or ({segments}, {n}) for the starts of {segments} segment(s)."
+        )
+    if not np.isfinite(start).all():
+        raise ArgumentError("guess holds values that are not finite.")
+    return start
+
+
+def _guess_path(
+    model: Model, start: FloatArray, start_time: float, period: float, segments: int
+) -> FloatArray:
+    if start.ndim == 2:
+        return start
+    scaled = isinstance(model, HasStateScale) and model.state_scale is not None
+    if scaled and segments == 1:
+        return start[None, :]
+    per_segment = 1 if scaled else _SAMPLES_PER_SEGMENT
+    times = start_time + period * np.arange(segments * per_segment) / (segments * per_segment)
+    return sample(model, start, start_time, times, start_time + period)
+
+
+def _reject_equilibrium(
+    work: Segments,
+    x: FloatArray,
+    period: float,
+    closure: float,
+    iterations: tuple[Iteration, ...],
+) -> None:
+    times = work.start + period * np.arange(_SAMPLES_PER_SEGMENT) / _SAMPLES_PER_SEGMENT
+    path = sample(work.model, x, work.start, times, work.start + period)
+    if float(np.abs((path - x) / work.scale).max()) > _SMALLEST_AMPLITUDE:
+        return
+    where = np.array2string(x, precision=6)
+    raise EquilibriumError(
+        f"No cycle found: the search ended on an equilibrium, or at period zero, near {where} "
+        f"(period {period:.3g} s) after {len(iterations) - 1} iterations; start further away from "
+        f"the equilibrium, or with another period guess.",
+        x,
+        closure,
+        iterations,
+    )

@@ -1,0 +1,188 @@
+"""Flows and flow Jacobians over the segments of an orbit, spread over an executor.
+
+Every flow is a pure function of its arguments and results keep their order, so that what comes out
+is bitwise the same with and without an executor.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from typing import Literal, TypeVar
+
+import numpy as np
+
+from birdmb._typing import FloatArray
+from birdmb.errors import StateError
+from birdmb.orbits.errors import ArgumentError
+from birdmb.orbits.problem import (
+    HasFlowAccuracy,
+    HasRhs,
+    HasStateScale,
+    HasTrajectory,
+    Model,
+    VariationalModel,
+)
+
+JacobianMethod = Literal["variational", "finite-differences"]
+Result = TypeVar("Result")
+
+# In units of the state scale: truncation 1e-10 balances a flow's round-off of 1e-15 over 1e-5.
+_STATE_STEP = 1e-5
+_TIME_STEP = 1e-5
+
+
+def choose_jacobian(
+    model: Model, wanted: Literal["auto", "variational", "finite-differences"]
+) -> JacobianMethod:
+    """Resolve "auto": variational where the model can, else finite differences."""
+    if wanted not in {"auto", "variational", "finite-differences"}:
+        raise ArgumentError(
+            f'jacobian must be "auto", "variational" or "finite-differences", not "{wanted}".'
+        )
+    able = isinstance(model, VariationalModel)
+    if wanted == "variational" and not able:
+        raise ArgumentError('jacobian="variational" needs a model with flow_jacobian.')
+    return "variational" if able and wanted != "finite-differences" else "finite-differences"
+
+
+def typical_sizes(model: Model, points: FloatArray) -> FloatArray:
+    """Scale (n,) of the states: the model's own, else the largest values along `points` (k, n).
+
+    A state that stays below 1e-8 of the largest one is at rest; its scale is 1. A path that runs
+    away does not set the scale: it counts up to a hundred times its beginning.
+    """
+    if isinstance(model, HasStateScale) and model.state_scale is not None:
+        scale = np.asarray(model.state_scale, float)
+        if scale.shape != points.shape[1:] or not (scale > 0).all():
+            raise ArgumentError(f"state_scale must hold {points.shape[1]} positive values.")
+        return scale
+    size, early = np.abs(points).max(axis=0), np.abs(points[:2]).max(axis=0)
+    size = np.where(early > 0, np.minimum(size, 100 * early), size)
+    return np.where(size > 1e-8 * size.max(), size, 1.0)
+
+
+def sample(model: Model, x0: FloatArray, t0: float, times: FloatArray, until: float) -> FloatArray:
+    """States (k, n) at ascending `times` in [t0, until] of the solution through x0 at t0."""
+    if isinstance(model, HasTrajectory):
+        return np.asarray(model.trajectory(x0, t0, until, times).states, float)
+    states, x, t = [], x0, t0
+    for time in times:
+        if time > t:
+            x, t = _flow(model, x, t, float(time)), float(time)
+        states.append(x)
+    return np.array(states)
+
+
+def _flow(model: Model, x0: FloatArray, t0: float, t1: float) -> FloatArray:
+    end = np.asarray(model.flow(x0, t0, t1), float)
+    if not np.isfinite(end).all():
+        raise StateError(_not_finite("flow", x0, t0, t1))
+    return end
+
+
+def _flow_jacobian(model: VariationalModel, x0: FloatArray, t0: float, t1: float) -> FloatArray:
+    factor = np.asarray(model.flow_jacobian(x0, t0, t1)[1], float)
+    if not np.isfinite(factor).all():
+        raise StateError(_not_finite("flow Jacobian", x0, t0, t1))
+    return factor
+
+
+def _not_finite(what: str, x0: FloatArray, t0: float, t1: float) -> str:
+    state = np.array2string(x0, precision=6)
+    return f"The {what} from {state} at t = {t0:.6g} to {t1:.6g} is not finite."
+
+
+@dataclass(frozen=True)
+class Segments:
+    """The work on the segments of one model: ends, velocities and Jacobians.
+
+    `points` (M, n) are the states at the starts of M equal segments of [start, start + period].
+    """
+
+    model: Model
+    scale: FloatArray
+    start: float
+    jacobian_method: JacobianMethod
+    executor: Executor | None = None
+
+    def ends(self, points: FloatArray, period: float) -> FloatArray:
+        """States (M, n) at the ends of the segments; StateError where the flow fails."""
+        t = self._times(points, period)
+        return np.array(self._map(_flow, points, t[:-1], t[1:]))
+
+    def velocities(self, points: FloatArray, period: float) -> FloatArray:
+        """Time derivatives (M, n) at `points`: right-hand side, else differences of the flow."""
+        t = self._times(points, period)[:-1]
+        if isinstance(self.model, HasRhs):
+            return np.array([self.model.rhs(*at) for at in zip(t, points, strict=True)], float)
+        # One-sided, of second order: a flow need not run backwards.
+        h = _TIME_STEP * period
+        near = np.array(self._map(_flow, points, t, t + h))
+        far = np.array(self._map(_flow, points, t, t + 2 * h))
+        return np.asarray((4 * near - far - 3 * points) / (2 * h))
+
+    def jacobians(self, points: FloatArray, period: float) -> FloatArray:
+        """Segment flow Jacobians (M, n, n), in the units of the states."""
+        if self.jacobian_method == "variational":
+            t = self._times(points, period)
+            return np.array(self._map(_flow_jacobian, points, t[:-1], t[1:]))
+        return self._differences(points, period, _STATE_STEP)
+
+    def jacobians_and_errors(
+        self, points: FloatArray, period: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """Segment flow Jacobians (M, n, n) and bounds (M, n, n) of the errors of their entries.
+
+        Differences: Richardson extrapolation from steps h and 2h; the bound is the difference of
+        the two, at least its rms over the (scaled) column, plus the round-off of the flow over h.
+        It covers both regimes, truncation and noise. Variational: the accuracy that the model
+        declares (`flow_accuracy`), else round-off.
+        """
+        eps = float(np.finfo(float).eps)
+        if self.jacobian_method == "variational":
+            factors = self.jacobians(points, period)
+            accuracy = eps
+            if isinstance(self.model, HasFlowAccuracy):
+                accuracy = max(eps, self.model.flow_accuracy)
+            return factors, accuracy * self._column_sizes(factors)
+        fine = self._differences(points, period, _STATE_STEP)
+        coarse = self._differences(points, period, 2 * _STATE_STEP)
+        difference = fine - coarse
+        round_off = eps / _STATE_STEP * np.divide.outer(self.scale, self.scale)
+        bound = np.maximum(np.abs(difference), self._column_sizes(difference)) + round_off
+        return fine + difference / 3, bound
+
+    def _column_sizes(self, factors: FloatArray) -> FloatArray:
+        # rms over each column in scaled states, given back in the units of each entry
+        units = np.divide.outer(self.scale, self.scale)
+        rms = np.sqrt(np.mean((factors / units) ** 2, axis=1, keepdims=True))
+        return np.asarray(rms * units)
+
+    def _differences(self, points: FloatArray, period: float, step: float) -> FloatArray:
+        m, n = points.shape
+        t = self._times(points, period)
+        shifts = np.diag(step * self.scale)
+        ahead, behind = points[:, None, :] + shifts, points[:, None, :] - shifts
+        starts = np.concatenate([ahead.reshape(-1, n), behind.reshape(-1, n)])
+        t0, t1 = (np.tile(np.repeat(side, n), 2) for side in (t[:-1], t[1:]))
+        plus, minus = np.array(self._map(_flow, starts, t0, t1)).reshape(2, m, n, n)
+        # The steps as represented, not as wanted: x + h - x is not h.
+        taken = np.einsum("kjj->kj", ahead - behind)
+        return np.swapaxes((plus - minus) / taken[:, :, None], 1, 2)
+
+    def _times(self, points: FloatArray, period: float) -> FloatArray:
+        return np.linspace(self.start, self.start + period, len(points) + 1)
+
+    def _map(
+        self, function: Callable[..., Result], states: FloatArray, t0: FloatArray, t1: FloatArray
+    ) -> list[Result]:
+        arguments: tuple[Iterable[object], ...] = (
+            [self.model] * len(states),
+            states,
+            t0.tolist(),
+            t1.tolist(),
+        )
+        mapper = map if self.executor is None else self.executor.map
+        return list(mapper(function, *arguments))

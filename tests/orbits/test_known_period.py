@@ -1,0 +1,97 @@
+import numpy as np
+import pytest
+import scipy.linalg
+from orbit_systems import ForcedLinear, markus_yamabe, mathieu
+
+from birdmb.orbits import OdeModel, find_limit_cycle
+
+
+def test_mathieu_multipliers():
+    cycle = find_limit_cycle(mathieu(1, 0.5))
+    assert cycle.multipliers == pytest.approx([-2.14655649, -0.46586242], abs=6e-9)
+    assert abs(np.linalg.det(cycle.monodromy) - 1) < 1e-10
+    assert cycle.stability == "unstable"
+
+
+@pytest.mark.parametrize(
+    ("a", "q", "trace"),
+    [(2, 1, -1.554649354177), (3, 2, 0.493922737185), (4, 5, 13.799346279909)],
+)
+def test_mathieu_traces(a, q, trace):
+    cycle = find_limit_cycle(mathieu(a, q))
+    assert np.trace(cycle.monodromy) == pytest.approx(trace, rel=1e-10)
+    assert abs(np.linalg.det(cycle.monodromy) - 1) < 1e-10
+
+
+def test_damping_shifts_mathieus_exponents():
+    # x = exp(-d t / 2) y turns the damped equation into the undamped one with a - d**2 / 4
+    d = 0.2
+    damped = find_limit_cycle(mathieu(1, 0.5, damping=d)).multipliers
+    undamped = find_limit_cycle(mathieu(1 - d**2 / 4, 0.5)).multipliers
+    assert damped == pytest.approx(undamped * np.exp(-d * np.pi / 2), rel=1e-9)
+
+
+@pytest.mark.parametrize("segments", [2, 5, 10])
+def test_multipliers_do_not_depend_on_the_segments(segments):
+    whole = find_limit_cycle(mathieu(1, 0.5)).multipliers
+    cut = find_limit_cycle(mathieu(1, 0.5), segments=segments).multipliers
+    assert cut == pytest.approx(whole, abs=1e-8)
+
+
+def test_multipliers_do_not_depend_on_the_starting_phase():
+    here = find_limit_cycle(mathieu(1, 0.5)).multipliers
+    there = find_limit_cycle(mathieu(1, 0.5), start_time=1.1).multipliers
+    assert there == pytest.approx(here, abs=1e-8)
+
+
+def test_markus_yamabe():
+    cycle = find_limit_cycle(markus_yamabe())
+    assert cycle.multipliers == pytest.approx([-np.exp(np.pi / 2), -np.exp(-np.pi)], rel=1e-9)
+    assert cycle.stability == "unstable"
+
+
+def duffing(unit=1.0):
+    """Forced Duffing oscillator, its position given in metres times `unit`."""
+
+    def rhs(t, x):
+        position, rate = x[0] / unit, x[1]
+        return [unit * rate, -0.2 * rate - position - position**3 + 0.3 * np.cos(1.2 * t)]
+
+    return OdeModel(rhs, ("x", "v"), period=2 * np.pi / 1.2, atol=[1e-13 * unit, 1e-13])
+
+
+@pytest.mark.parametrize("jacobian", ["variational", "finite-differences"])
+def test_multipliers_do_not_depend_on_the_units(jacobian):
+    metres = find_limit_cycle(duffing(), [0.1, 0.1], jacobian=jacobian)
+    micrometres = find_limit_cycle(duffing(1e6), [0.1e6, 0.1], jacobian=jacobian)
+    accuracy = 1e-9 if jacobian == "variational" else 1e-6
+    assert micrometres.multipliers == pytest.approx(metres.multipliers, abs=accuracy)
+    assert micrometres.x0 / [1e6, 1] == pytest.approx(metres.x0, abs=1e-8)
+
+
+def test_twice_the_period_squares_the_multipliers():
+    once, twice = duffing(), duffing()
+    twice.period = 2 * once.period
+    first = find_limit_cycle(once, [0.1, 0.1])
+    second = find_limit_cycle(twice, first.x0)
+    assert np.sort_complex(second.multipliers) == pytest.approx(
+        np.sort_complex(first.multipliers**2), abs=1e-9
+    )
+
+
+@pytest.mark.parametrize("segments", [1, 4])
+def test_difference_error_estimate_bounds_the_true_error(segments):
+    model = ForcedLinear()
+    cycle = find_limit_cycle(model, [0.0, 0.0, 0.0], segments=segments)
+    assert cycle.x0 == pytest.approx(model.orbit(0.0), abs=1e-8)
+    true = np.linalg.eigvals(scipy.linalg.expm(model.matrix * model.period))
+    errors = np.array([np.abs(true - value).min() for value in cycle.multipliers])
+    assert (errors <= cycle.multiplier_errors).all()
+    assert cycle.multiplier_errors.max() < 1e3 * errors.max()
+    assert cycle.stability == "stable"
+
+
+def test_levenberg_marquardt_agrees_with_newton():
+    newton = find_limit_cycle(duffing(), [0.5, -0.5], segments=3)
+    other = find_limit_cycle(duffing(), [0.5, -0.5], segments=3, method="levenberg-marquardt")
+    assert other.x0 == pytest.approx(newton.x0, abs=1e-8)
