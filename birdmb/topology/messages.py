@@ -23,6 +23,7 @@ _EXPECTED = {
     "int_type": "must be a whole number",
     "string_type": "must be a text in quotes",
     "bool_type": "must be true or false",
+    "string_pattern_mismatch": "must be of letters, digits, _ and - only",
     "tuple_type": "must be a list",
     "missing": "must be a list of 3 entries",
     "too_long": "must be a list of 3 entries",
