@@ -1,165 +1,21 @@
-"""A periodic orbit and what its linearisation says."""
+"""A periodic orbit that a search found."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-import numpy.typing as npt
-import xarray as xr
-from matplotlib.figure import Figure
-
-from birdmb._typing import ComplexArray, FloatArray
-from birdmb.orbits import plots
-from birdmb.orbits.multipliers import Stability, verdict
 from birdmb.orbits.newton import Iteration
-from birdmb.orbits.ode import Trajectory
-from birdmb.orbits.problem import HasStateUnits, Model
-from birdmb.orbits.segments import JacobianMethod, sample
+from birdmb.orbits.result import FloquetResult
 
 
 @dataclass(frozen=True)
-class LimitCycle:
-    """A periodic orbit of a model, with its Floquet multipliers.
+class LimitCycle(FloquetResult):
+    """A periodic orbit found by `find_limit_cycle`, with its Floquet multipliers.
 
     A model may name its own subclass as `limit_cycle_type`, to add what it knows of its orbits.
 
     Attributes:
-        model: the model.
-        x0: state (n,) at the start time.
-        state_names: names of the n states.
-        period: period in s.
-        start_time: time of x0 in s.
-        points: states (M, n) at the starts of the M shooting segments; the first is x0.
-        state_scale: typical sizes (n,) with which states were made comparable.
-        residual: largest closure error of a segment, in the units of the states.
-        iterations: the accepted iterations of the search.
-        monodromy: derivative (n, n) of the state after a period with respect to x0.
-        segment_jacobians: its factors (M, n, n), the first segment first.
-        multipliers: eigenvalues (n,) of the monodromy, largest modulus first.
-        multiplier_errors: bound (n,) of the error of each multiplier, from the errors of the
-            Jacobians, round-off and the closure error, without the model's own discretisation.
-        modes: eigenvectors in the columns (n, n), in the order of the multipliers; in each the
-            largest entry in units of the state scale is 1.
-        jacobian_method: "variational" or "finite-differences".
+        iterations: the accepted iterations of the search, the guess first.
     """
 
-    model: Model
-    x0: FloatArray
-    state_names: tuple[str, ...]
-    period: float
-    start_time: float
-    points: FloatArray
-    state_scale: FloatArray
-    residual: float
     iterations: tuple[Iteration, ...]
-    monodromy: FloatArray
-    segment_jacobians: FloatArray
-    multipliers: ComplexArray
-    multiplier_errors: FloatArray
-    modes: ComplexArray
-    jacobian_method: JacobianMethod
-
-    @property
-    def autonomous(self) -> bool:
-        """Whether the period was unknown; then one multiplier is trivial, 1 but for errors."""
-        return self.model.period is None
-
-    @property
-    def trivial_index(self) -> int | None:
-        """Position of the trivial multiplier (the one nearest 1); `None` for a forced system."""
-        return int(np.abs(self.multipliers - 1).argmin()) if self.autonomous else None
-
-    @property
-    def stability(self) -> Stability:
-        """Verdict of the non-trivial multipliers; "undecided" if error bars touch |Lambda| = 1."""
-        keep = np.arange(len(self.multipliers)) != self.trivial_index
-        return verdict(self.multipliers[keep], self.multiplier_errors[keep])
-
-    @property
-    def exponents(self) -> ComplexArray:
-        """Floquet exponents ln(Lambda)/T, (n,), in 1/s, imaginary part in (-pi/T, pi/T]."""
-        with np.errstate(divide="ignore"):
-            return np.asarray(np.log(self.multipliers) / self.period)
-
-    @property
-    def doubling_times(self) -> FloatArray:
-        """Time (n,) in s in which each mode doubles (|Lambda| > 1) or halves: T ln 2/|ln|Lambda||.
-
-        Infinite for |Lambda| = 1.
-        """
-        with np.errstate(divide="ignore"):
-            rate = np.abs(np.log(np.abs(self.multipliers)))
-            return np.asarray(self.period * np.log(2) / rate)
-
-    def trajectory(self, times: npt.ArrayLike | None = None) -> Trajectory:
-        """States at `times` (k,) in s, any times: the orbit is continued periodically.
-
-        By default 201 times over the period from the start time. Each segment starts from its own
-        point, so that an unstable orbit does not drift off.
-        """
-        if times is None:
-            at = self.start_time + np.linspace(0, self.period, 201)
-        else:
-            at = np.asarray(times, float)
-        m = len(self.points)
-        phase = np.mod(at - self.start_time, self.period)
-        segment = np.minimum((phase * m / self.period).astype(int), m - 1)
-        grid = np.linspace(self.start_time, self.start_time + self.period, m + 1)
-        states = np.empty((len(at), len(self.x0)))
-        for k in np.unique(segment):
-            inside = np.flatnonzero(segment == k)
-            ascending, back = np.unique(self.start_time + phase[inside], return_inverse=True)
-            ascending = np.clip(ascending, grid[k], grid[k + 1])
-            path = sample(self.model, self.points[k], grid[k], ascending, grid[k + 1])
-            states[inside] = path[back]
-        return Trajectory(at, states)
-
-    def to_xarray(self) -> xr.Dataset:
-        """Return the orbit as a labelled dataset with real variables, fit for NetCDF.
-
-        Dimensions: state, state_at_start, multiplier, time. Complex values are split into
-        variables that end in `_real` and `_imag`.
-        """
-        path = self.trajectory()
-        units = ("1",) * len(self.x0)
-        if isinstance(self.model, HasStateUnits):
-            units = tuple(self.model.state_units)
-        both = ("state", "multiplier")
-        return xr.Dataset(
-            {
-                "x0": ("state", self.x0),
-                "trajectory": (("time", "state"), path.states),
-                "monodromy": (("state", "state_at_start"), self.monodromy),
-                "multiplier_real": ("multiplier", self.multipliers.real),
-                "multiplier_imag": ("multiplier", self.multipliers.imag),
-                "multiplier_error": ("multiplier", self.multiplier_errors),
-                "exponent_real": ("multiplier", self.exponents.real, {"units": "1/s"}),
-                "exponent_imag": ("multiplier", self.exponents.imag, {"units": "1/s"}),
-                "doubling_time": ("multiplier", self.doubling_times, {"units": "s"}),
-                "mode_real": (both, self.modes.real),
-                "mode_imag": (both, self.modes.imag),
-            },
-            coords={
-                "state": list(self.state_names),
-                "state_at_start": list(self.state_names),
-                "state_unit": ("state", list(units)),
-                "multiplier": np.arange(len(self.multipliers)),
-                "time": ("time", path.times, {"units": "s"}),
-            },
-            attrs={
-                "period": self.period,
-                "start_time": self.start_time,
-                "residual": self.residual,
-                "stability": self.stability,
-                "jacobian_method": self.jacobian_method,
-                "time_units": "s",
-            },
-        )
-
-    def plot(self) -> Figure:
-        """Draw the states over a period and the multipliers in the unit circle."""
-        units = self.model.state_units if isinstance(self.model, HasStateUnits) else None
-        return plots.plot_cycle(
-            self.trajectory(), self.state_names, units, self.multipliers, self.multiplier_errors
-        )

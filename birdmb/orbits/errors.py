@@ -16,6 +16,19 @@ class ArgumentError(OrbitError, ValueError):
     """An argument has the wrong shape or value, or two arguments contradict each other."""
 
 
+class NotClosedError(OrbitError):
+    """An orbit given as known does not close; `residual` is by how much, in state scales."""
+
+    def __init__(self, message: str, residual: float) -> None:
+        """Keep the closure error."""
+        super().__init__(message, residual)
+        self.residual = residual
+
+    def __str__(self) -> str:
+        """Return the sentence alone."""
+        return str(self.args[0])
+
+
 class ConvergenceError(OrbitError):
     """No orbit was found.
 

@@ -1,9 +1,13 @@
-"""Floquet multipliers of a product of matrices, each with an error bound."""
+"""Floquet multipliers of a product of segment Jacobians, each with an error bound.
+
+Two interchangeable solvers, both of type `MultiplierSolver`: `product_multipliers` and
+`periodic_multipliers` (module `periodic`).
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, cast
+from typing import Literal, Protocol, cast
 
 import numpy as np
 import scipy.linalg
@@ -17,21 +21,34 @@ _EPS = float(np.finfo(float).eps)
 
 @dataclass(frozen=True)
 class Spectrum:
-    """Eigenvalues of a monodromy matrix, largest modulus first.
+    """Multipliers, largest modulus first, with their modes.
 
     Attributes:
-        monodromy: the product (n, n).
-        multipliers: eigenvalues (n,).
+        multipliers: eigenvalues (n,) of the product.
         errors: bound of the error of each, (n,).
-        modes: right eigenvectors in the columns (n, n), largest scaled entry 1.
-        left_modes: left eigenvectors (rows act on states), columns w with w^H v = 1.
+        modes: right eigenvectors in the columns (n, n); largest entry 1 in units of the scale.
+        left_modes: left eigenvectors in the columns (n, n), with left^H right = 1.
+        modes_along: periodic parts (M, n, n) of the modes at the starts of the segments: what is
+            left of a mode after division by exp(exponent * time).
     """
 
-    monodromy: FloatArray
     multipliers: ComplexArray
     errors: FloatArray
     modes: ComplexArray
     left_modes: ComplexArray
+    modes_along: ComplexArray
+
+
+class MultiplierSolver(Protocol):
+    """Eigenvalues and modes of a product of matrices.
+
+    `factors` (M, n, n) are the segment Jacobians, the first segment first; `errors` (M, n, n)
+    bounds of the errors of their entries; `scale` (n,) the typical sizes of the states, which makes
+    states of different units comparable.
+    """
+
+    def __call__(self, factors: FloatArray, errors: FloatArray, scale: FloatArray, /) -> Spectrum:
+        """Solve."""
 
 
 def product(factors: FloatArray) -> FloatArray:
@@ -59,38 +76,30 @@ def product_error(factors: FloatArray, errors: FloatArray) -> FloatArray:
     return total
 
 
-def spectrum(monodromy: FloatArray, error: FloatArray, scale: FloatArray) -> Spectrum:
-    """Eigenvalues, eigenvectors and error bounds of a monodromy matrix.
+def eigenvalues_with_errors(
+    matrix: FloatArray, error: FloatArray
+) -> tuple[ComplexArray, FloatArray, ComplexArray, ComplexArray]:
+    """Eigenvalues, their error bounds, right and left eigenvectors with left^H right = 1.
 
-    The bound of a multiplier is its first-order perturbation under the entrywise `error` (n, n),
-    |y|^T E |x| / |y^H x| with its right and left eigenvectors x, y (Golub & Van Loan, section 7.2),
-    plus the backward error of the eigenvalue solver. For a nearly defective multiplier y^H x
+    The bound is the first-order perturbation under the entrywise `error` (n, n) of the matrix,
+    |y|^T E |x| / |y^H x| with right and left eigenvectors x, y (Golub & Van Loan, section 7.2),
+    plus the backward error of the eigenvalue solver. For a nearly defective eigenvalue y^H x
     vanishes and this grows large; it is capped by Henrici's bound for non-normal matrices, which
-    grows as a root of the error there. `scale` (n,) makes states of different units comparable.
+    grows as a root of the error there.
     """
-    units = np.divide.outer(scale, scale)
-    matrix, bound = monodromy / units, error / units
     n = len(matrix)
     solver_error = n * _EPS * float(np.linalg.norm(matrix))
     values, left, right = cast(
         "tuple[ComplexArray, ComplexArray, ComplexArray]",
         scipy.linalg.eig(matrix, left=True, right=True),
     )
-    order = np.lexsort((-values.imag, -np.abs(values)))
-    values, left, right = values[order], left[:, order], right[:, order]
-
-    overlap = np.abs(np.einsum("ik,ik->k", left.conj(), right))
-    numerator = np.einsum("ik,ij,jk->k", np.abs(left), bound, np.abs(right)) + solver_error
-    with np.errstate(divide="ignore"):
-        first_order = numerator / overlap
-    errors = np.minimum(first_order, _henrici(matrix, float(np.linalg.norm(bound)) + solver_error))
-
-    peak = right[np.abs(right).argmax(axis=0), np.arange(n)]
-    right = right / peak
+    overlap = np.einsum("ik,ik->k", left.conj(), right)
+    numerator = np.einsum("ik,ij,jk->k", np.abs(left), error, np.abs(right)) + solver_error
     with np.errstate(divide="ignore", invalid="ignore"):
-        left = left / np.einsum("ik,ik->k", left.conj(), right).conj()
-    modes, left_modes = right * scale[:, None], left / scale[:, None]
-    return Spectrum(monodromy, values.astype(complex), errors, modes, left_modes)
+        first_order = numerator / np.abs(overlap)
+        left = left / overlap.conj()
+    errors = np.minimum(first_order, _henrici(matrix, float(np.linalg.norm(error)) + solver_error))
+    return values.astype(complex), errors, right.astype(complex), left.astype(complex)
 
 
 def _henrici(matrix: FloatArray, size: float) -> float:
@@ -98,6 +107,45 @@ def _henrici(matrix: FloatArray, size: float) -> float:
     departure = float(np.linalg.norm(np.triu(triangle, 1)))
     theta = size * float(np.sum(departure ** np.arange(len(matrix))))
     return float(max(theta, theta ** (1 / len(matrix))))
+
+
+def ordered_spectrum(
+    values: ComplexArray,
+    errors: FloatArray,
+    left: ComplexArray,
+    along: ComplexArray,
+    scale: FloatArray,
+) -> Spectrum:
+    """Sort by modulus, normalise the modes and give them the units of the states."""
+    order = np.lexsort((-values.imag, -np.abs(values)))
+    left, along = left[:, order], along[:, :, order]
+    start = along[0]
+    peak = start[np.abs(start).argmax(axis=0), np.arange(len(values))]
+    along = along / peak * scale[:, None]
+    return Spectrum(
+        values[order], errors[order], along[0], left * peak.conj() / scale[:, None], along
+    )
+
+
+def product_multipliers(factors: FloatArray, errors: FloatArray, scale: FloatArray) -> Spectrum:
+    """Multipliers as eigenvalues of the monodromy matrix, the product of the segment Jacobians.
+
+    Method: multiply and take LAPACK's eigenvalues. Precision: an absolute error of about round-off
+    times the norm of the product, so that multipliers below 1e-16 of the largest are lost, and
+    their error bounds say so. Fast and enough where all multipliers of interest are of similar
+    size; otherwise take `periodic_multipliers` with several segments.
+    """
+    m, n, _ = factors.shape
+    units = np.divide.outer(scale, scale)
+    scaled = factors / units
+    bound = product_error(scaled, errors / units)
+    values, value_errors, right, left = eigenvalues_with_errors(product(scaled), bound)
+    along = np.empty((m, n, n), complex)
+    along[0] = right
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for k in range(1, m):
+            along[k] = scaled[k - 1] @ along[k - 1] / values ** (1 / m)
+    return ordered_spectrum(values, value_errors, left, along, scale)
 
 
 def verdict(multipliers: ComplexArray, errors: FloatArray) -> Stability:

@@ -47,3 +47,19 @@ def draw_multipliers(axes: Axes, multipliers: ComplexArray, errors: FloatArray) 
     reach = 1.1 * max(1.0, float(np.abs(multipliers).max()))
     axes.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal")
     axes.set(xlabel="Re Λ", ylabel="Im Λ", title="Floquet multipliers")
+
+
+def plot_response(
+    times: FloatArray, states: FloatArray, orbit: FloatArray, state_names: Sequence[str]
+) -> Figure:
+    """Draw disturbed states (k, n) and the orbit (k, n) over time."""
+    n = len(state_names)
+    figure = Figure(figsize=(8, max(4.0, 1.3 * n)), layout="constrained")
+    rows = figure.subplots(n, 1, sharex=True, squeeze=False)[:, 0]
+    for i, axes in enumerate(rows):
+        axes.plot(times, orbit[:, i], color="0.6", label="orbit")
+        axes.plot(times, states[:, i], color=STABLE_COLOUR, label="disturbed")
+        axes.set_ylabel(state_names[i])
+    rows[0].legend(loc="upper right")
+    rows[-1].set_xlabel("time (s)")
+    return figure

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import Executor
-from typing import Any, Literal
+from typing import Literal, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -15,11 +15,18 @@ from birdmb.orbits.cycle import LimitCycle
 from birdmb.orbits.errors import ArgumentError, ConvergenceError, EquilibriumError
 from birdmb.orbits.linearisation import linearise
 from birdmb.orbits.newton import Iteration, SolverMethod, solve
-from birdmb.orbits.problem import HasInitialGuess, HasLimitCycleType, HasStateScale, Model
-from birdmb.orbits.segments import Segments, choose_jacobian, sample, typical_sizes
+from birdmb.orbits.periodic import periodic_multipliers
+from birdmb.orbits.problem import HasInitialGuess, HasLimitCycleType, Model
+from birdmb.orbits.segments import (
+    SAMPLES_PER_SEGMENT,
+    Segments,
+    choose_jacobian,
+    guess_path,
+    sample,
+    typical_sizes,
+)
 from birdmb.orbits.shooting import ShootingEquations
 
-_SAMPLES_PER_SEGMENT = 8
 # A cycle of less than this part of the state scale is the neighbourhood of an equilibrium.
 _SMALLEST_AMPLITUDE = 1e-5
 
@@ -37,7 +44,7 @@ def find_limit_cycle(
     jacobian: Literal["auto", "variational", "finite-differences"] = "auto",
     executor: Executor | None = None,
     callback: Callable[[Iteration], None] | None = None,
-) -> Any:
+) -> LimitCycle:
     """Find a periodic orbit of a model by multiple shooting, and its Floquet multipliers.
 
     Forced systems (`model.period` given): the states at the starts of the segments are unknown.
@@ -70,14 +77,11 @@ def find_limit_cycle(
         EquilibriumError: the search ended on an equilibrium, or at period zero.
     """
     autonomous, period = _period(model, period_guess)
-    if segments < 1:
-        raise ArgumentError(f"segments must be at least 1, not {segments}.")
     jacobian_method = choose_jacobian(model, jacobian)
-    start = _guess(model, guess, segments)
+    start = _proposal(model) if guess is None else guess
     try:
-        path = _guess_path(model, start, start_time, period, segments)
+        path, points = guess_path(model, start, start_time, period, segments)
         scale = typical_sizes(model, path)
-        points = path[:: len(path) // segments] if start.ndim == 1 else start
         work = Segments(model, scale, start_time, jacobian_method, executor)
         equations = ShootingEquations(work, period, autonomous)
         equations.residual(equations.pack(points, period))
@@ -101,25 +105,9 @@ def find_limit_cycle(
     closure = equations.closure(residual)
     if autonomous:
         _reject_equilibrium(work, points[0], period, closure, iterations)
-    found = linearise(equations, points, period)
     kind = model.limit_cycle_type if isinstance(model, HasLimitCycleType) else LimitCycle
-    return kind(
-        model=model,
-        x0=points[0],
-        state_names=tuple(model.state_names),
-        period=period,
-        start_time=start_time,
-        points=points,
-        state_scale=scale,
-        residual=closure,
-        iterations=iterations,
-        monodromy=found.spectrum.monodromy,
-        segment_jacobians=found.factors,
-        multipliers=found.spectrum.multipliers,
-        multiplier_errors=found.spectrum.errors,
-        modes=found.spectrum.modes,
-        jacobian_method=jacobian_method,
-    )
+    found = linearise(equations, points, period, periodic_multipliers)
+    return cast("LimitCycle", kind(**found, iterations=iterations))
 
 
 def _period(model: Model, period_guess: float | None) -> tuple[bool, float]:
@@ -137,34 +125,10 @@ def _period(model: Model, period_guess: float | None) -> tuple[bool, float]:
     return True, float(period_guess)
 
 
-def _guess(model: Model, guess: npt.ArrayLike | None, segments: int) -> FloatArray:
-    if guess is None:
-        if not isinstance(model, HasInitialGuess):
-            raise ArgumentError("this model proposes no initial guess; pass one.")
-        guess = model.initial_guess()
-    start = np.array(guess, float)
-    n = len(model.state_names)
-    if start.shape not in {(n,), (segments, n)}:
-        raise ArgumentError(
-            f"guess has shape {start.shape}; the states {', '.join(model.state_names)} need "
-            f"({n},), or ({segments}, {n}) for the starts of {segments} segment(s)."
-        )
-    if not np.isfinite(start).all():
-        raise ArgumentError("guess holds values that are not finite.")
-    return start
-
-
-def _guess_path(
-    model: Model, start: FloatArray, start_time: float, period: float, segments: int
-) -> FloatArray:
-    if start.ndim == 2:
-        return start
-    scaled = isinstance(model, HasStateScale) and model.state_scale is not None
-    if scaled and segments == 1:
-        return start[None, :]
-    per_segment = 1 if scaled else _SAMPLES_PER_SEGMENT
-    times = start_time + period * np.arange(segments * per_segment) / (segments * per_segment)
-    return sample(model, start, start_time, times, start_time + period)
+def _proposal(model: Model) -> FloatArray:
+    if not isinstance(model, HasInitialGuess):
+        raise ArgumentError("this model proposes no initial guess; pass one.")
+    return model.initial_guess()
 
 
 def _reject_equilibrium(
@@ -174,7 +138,7 @@ def _reject_equilibrium(
     closure: float,
     iterations: tuple[Iteration, ...],
 ) -> None:
-    times = work.start + period * np.arange(_SAMPLES_PER_SEGMENT) / _SAMPLES_PER_SEGMENT
+    times = work.start + period * np.arange(SAMPLES_PER_SEGMENT) / SAMPLES_PER_SEGMENT
     path = sample(work.model, x, work.start, times, work.start + period)
     if float(np.abs((path - x) / work.scale).max()) > _SMALLEST_AMPLITUDE:
         return

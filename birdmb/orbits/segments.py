@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeVar
 
 import numpy as np
+import numpy.typing as npt
 
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
@@ -28,6 +29,7 @@ from birdmb.orbits.problem import (
 JacobianMethod = Literal["variational", "finite-differences"]
 Result = TypeVar("Result")
 
+SAMPLES_PER_SEGMENT = 8
 # In units of the state scale: truncation 1e-10 balances a flow's round-off of 1e-15 over 1e-5.
 _STATE_STEP = 1e-5
 _TIME_STEP = 1e-5
@@ -61,6 +63,36 @@ def typical_sizes(model: Model, points: FloatArray) -> FloatArray:
     size, early = np.abs(points).max(axis=0), np.abs(points[:2]).max(axis=0)
     size = np.where(early > 0, np.minimum(size, 100 * early), size)
     return np.where(size > 1e-8 * size.max(), size, 1.0)
+
+
+def guess_path(
+    model: Model, guess: npt.ArrayLike, start_time: float, period: float, segments: int
+) -> tuple[FloatArray, FloatArray]:
+    """Lay a guess out as states (k, n) along a period and points (segments, n) to start from.
+
+    Raises:
+        ArgumentError: the guess is neither one state (n,) nor one for each segment (segments, n).
+        StateError: the flow fails on the way round.
+    """
+    start, n = np.array(guess, float), len(model.state_names)
+    if segments < 1:
+        raise ArgumentError(f"segments must be at least 1, not {segments}.")
+    if start.shape not in {(n,), (segments, n)}:
+        raise ArgumentError(
+            f"the guess has shape {start.shape}; the states {', '.join(model.state_names)} need "
+            f"({n},), or ({segments}, {n}) for the starts of {segments} segment(s)."
+        )
+    if not np.isfinite(start).all():
+        raise ArgumentError("the guess holds values that are not finite.")
+    if start.ndim == 2:
+        return start, start
+    scaled = isinstance(model, HasStateScale) and model.state_scale is not None
+    if scaled and segments == 1:
+        return start[None, :], start[None, :]
+    per_segment = 1 if scaled else SAMPLES_PER_SEGMENT
+    times = start_time + period * np.arange(segments * per_segment) / (segments * per_segment)
+    path = sample(model, start, start_time, times, start_time + period)
+    return path, path[::per_segment]
 
 
 def sample(model: Model, x0: FloatArray, t0: float, times: FloatArray, until: float) -> FloatArray:
