@@ -98,16 +98,16 @@ class Discretisation(Part):
     elements: Annotated[int, Strict(), Field(ge=2)] = Field(
         description="elements per wing, 2 or more"
     )
-    rounding: Annotated[Number, Field(gt=0, le=0.5)] = Field(
-        description="rounding of the edges' corners, a fraction above 0 up to 0.5"
+    rounding: Annotated[Number, Field(gt=0, le=1)] = Field(
+        description="rounding of the edges' corners, a fraction above 0 up to 1"
     )
 
 
 # Whoever changes these numbers changes every fingerprint of a bird that uses them.
 PRESETS: Mapping[str, Discretisation] = MappingProxyType(
     {
-        "converged": Discretisation(scheme="orthogonal", elements=32, rounding=0.25),
-        "published": Discretisation(scheme="one-step", elements=8, rounding=0.25),
+        "converged": Discretisation(scheme="orthogonal", elements=32, rounding=0.5),
+        "published": Discretisation(scheme="one-step", elements=8, rounding=0.5),
     }
 )
 

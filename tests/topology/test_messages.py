@@ -282,15 +282,15 @@ MISTAKES = {
     ),
     "too round": (
         'discretisation = "converged"',
-        f"{TABLE}, rounding = 0.6 }}",
-        "wing.discretisation.rounding: must be 0.5 or less, not 0.6 "
-        "(rounding of the edges' corners, a fraction above 0 up to 0.5)",
+        f"{TABLE}, rounding = 1.5 }}",
+        "wing.discretisation.rounding: must be 1 or less, not 1.5 "
+        "(rounding of the edges' corners, a fraction above 0 up to 1)",
     ),
     "table without rounding": (
         'discretisation = "converged"',
         f"{TABLE} }}",
         "wing.discretisation.rounding: missing; it should give the rounding of the edges' corners, "
-        "a fraction above 0 up to 0.5",
+        "a fraction above 0 up to 1",
     ),
     "several, the first in the file": (
         "[gait]\nfrequency = 4.0",

@@ -1,0 +1,1 @@
+"""Limit cycles and Floquet stability of flapping birds."""

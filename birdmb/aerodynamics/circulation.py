@@ -1,0 +1,105 @@
+"""Quasi-steady circulation and loads of the lifting line, and their derivatives (MODEL section 6).
+
+With U the wind that an element meets, its component along the span removed, and alpha its angle
+to the chord, thin-airfoil theory and the downwash w of the wake give
+
+    Gamma = 1/2 c 2 pi (|U| alpha - w),   w linear in Gamma,
+
+which is one linear system. Each element then feels rho Gamma (U_total x e_t) dl, U_total with the
+induced velocity. Everything is in body axes, moments are about the body's centre of mass G.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from birdmb._typing import FloatArray
+from birdmb.aerodynamics.elements import Elements, circulation_system
+
+
+class ElementLoads(NamedTuple):
+    """Loads of the N elements of the right wing."""
+
+    circulation: FloatArray  # (N,) m2/s
+    angle_of_attack: FloatArray  # (N,) rad, geometric (before the downwash)
+    speed: FloatArray  # (N,) m/s in the section's plane
+    force: FloatArray  # (N, 3) N
+
+
+@njit(cache=True)
+def _wind(elements: Elements, e: int, u: float, w: float, q: float, out: FloatArray) -> None:
+    """Air velocity (3,) m/s seen by control point e of a body with velocity u, w and pitch rate q."""
+    out[0] = -u - q * elements.position[e, 2] - elements.velocity[e, 0]
+    out[1] = -elements.velocity[e, 1]
+    out[2] = -w + q * elements.position[e, 0] - elements.velocity[e, 2]
+
+
+@njit(cache=True)
+def _dot(a: FloatArray, b: FloatArray) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@njit(cache=True)
+def section_flow(
+    elements: Elements, u: float, w: float, q: float
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Wind (N, 3), in-plane speed (N,) and geometric angle of attack (N,) of every element."""
+    n = elements.chord.size
+    wind = np.empty((n, 3))
+    speed = np.empty(n)
+    alpha = np.empty(n)
+    in_plane = np.empty(3)
+    for e in range(n):
+        _wind(elements, e, u, w, q, wind[e])
+        along = _dot(wind[e], elements.span_direction[e])
+        for i in range(3):
+            in_plane[i] = wind[e, i] - along * elements.span_direction[e, i]
+        speed[e] = np.sqrt(_dot(in_plane, in_plane))
+        alpha[e] = np.arctan2(
+            _dot(in_plane, elements.normal[e]), _dot(in_plane, elements.chord_direction[e])
+        )
+    return wind, speed, alpha
+
+
+@njit(cache=True)
+def element_loads(
+    elements: Elements, density: float, u: float, w: float, q: float
+) -> ElementLoads:
+    """Circulation and force of every element for the body velocity u, w (m/s) and rate q (rad/s)."""
+    wind, speed, alpha = section_flow(elements, u, w, q)
+    bound = np.pi * elements.chord * speed * alpha
+    circulation = np.linalg.solve(circulation_system(elements), bound)
+    return ElementLoads(
+        circulation, alpha, speed, _forces(elements, density, wind, circulation)
+    )
+
+
+@njit(cache=True)
+def _forces(
+    elements: Elements, density: float, wind: FloatArray, circulation: FloatArray
+) -> FloatArray:
+    vy = elements.induced_y @ circulation
+    vz = elements.induced_z @ circulation
+    force = np.empty((circulation.size, 3))
+    for e in range(circulation.size):
+        t = elements.span_direction[e]
+        x, y, z = wind[e, 0], wind[e, 1] + vy[e], wind[e, 2] + vz[e]
+        strength = density * circulation[e] * elements.width[e]
+        force[e, 0] = strength * (y * t[2] - z * t[1])
+        force[e, 1] = strength * (z * t[0] - x * t[2])
+        force[e, 2] = strength * (x * t[1] - y * t[0])
+    return force
+
+
+@njit(cache=True)
+def resultant(elements: Elements, force: FloatArray) -> FloatArray:
+    """Sum over both wings: F_x, F_z (N) and the pitching moment about G (N m), nose up positive."""
+    total = np.zeros(3)
+    for e in range(force.shape[0]):
+        total[0] += 2.0 * force[e, 0]
+        total[1] += 2.0 * force[e, 2]
+        total[2] += 2.0 * (
+            elements.position[e, 2] * force[e, 0] - elements.position[e, 0] * force[e, 2]
+        )
+    return total

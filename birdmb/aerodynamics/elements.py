@@ -1,0 +1,112 @@
+"""Lifting-line elements of a symmetric pair of wings and the velocities they induce (MODEL 5, 6).
+
+Frame: body axes (x forward, y right, z down), origin at the body's centre of mass G. Only the right
+wing is stored: left and right circulations are equal and the left wing is the mirror image, so its
+influence is folded into the matrices.
+
+Each wing has N elements between N + 1 nodes. The first node lies on the centre line, beside the
+shoulder: the element at the root spans the gap over the body with the root's chord and control
+point. From every node a straight semi-infinite vortex leaves backwards along the body's x axis,
+with the difference of the circulations on either side.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from birdmb._typing import FloatArray
+from birdmb.wing.shape import WingShape
+
+
+class Elements(NamedTuple):
+    """N elements of the right wing. Velocities are relative to the body."""
+
+    position: FloatArray  # (N, 3) m, control points from G
+    velocity: FloatArray  # (N, 3) m/s
+    chord_direction: FloatArray  # (N, 3) towards the trailing edge
+    normal: FloatArray  # (N, 3) up
+    span_direction: FloatArray  # (N, 3) outwards
+    chord: FloatArray  # (N,) m
+    node: FloatArray  # (N + 1, 3) m, from the centre line to the wing tip
+    width: FloatArray  # (N,) m, distance between the element's nodes
+    induced_y: FloatArray  # (N, N) 1/m, velocity along y at control i by circulation j, both wings
+    induced_z: FloatArray  # (N, N) 1/m
+
+
+@njit(cache=True)
+def place_elements(shape: WingShape, root: FloatArray) -> Elements:
+    """Elements of a shape in body axes hung up at `root` (3,) m from G."""
+    n = shape.chord.size
+    position = shape.line[0::2] + root
+    node = np.empty((n + 1, 3))
+    node[0] = position[0]
+    node[0, 1] = 0.0
+    node[1:] = shape.line[1::2] + root
+    width = np.empty(n)
+    for e in range(n):
+        dx = node[e + 1, 0] - node[e, 0]
+        dy = node[e + 1, 1] - node[e, 1]
+        dz = node[e + 1, 2] - node[e, 2]
+        width[e] = np.sqrt(dx * dx + dy * dy + dz * dz)
+    induced_y, induced_z = wake_influence(position, node)
+    return Elements(
+        position,
+        shape.velocity,
+        shape.chord_direction,
+        shape.normal,
+        shape.span_direction,
+        shape.chord,
+        node,
+        width,
+        induced_y,
+        induced_z,
+    )
+
+
+@njit(cache=True)
+def wake_influence(position: FloatArray, node: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Velocities along y and z, each (N, N) 1/m, at the controls per circulation of each element.
+
+    A filament of strength G at distance r in the plane across its axis induces G/(4 pi r); the
+    bound vortices' influence on each other is neglected, as published.
+    """
+    n = position.shape[0]
+    induced_y = np.zeros((n, n))
+    induced_z = np.zeros((n, n))
+    for i in range(n):
+        for k in range(n + 1):
+            rz = position[i, 2] - node[k, 2]
+            ry = position[i, 1] - node[k, 1]
+            ry_mirror = position[i, 1] + node[k, 1]
+            near = 0.25 / (np.pi * (ry * ry + rz * rz))
+            far = 0.25 / (np.pi * (ry_mirror * ry_mirror + rz * rz))
+            # Per unit strength backwards, that of the left wing's image being opposite.
+            vy = rz * (near - far)
+            vz = ry_mirror * far - ry * near
+            # Node k sheds the circulation inboard of it minus the one outboard of it.
+            if k < n:
+                induced_y[i, k] -= vy
+                induced_z[i, k] -= vz
+            if k > 0:
+                induced_y[i, k - 1] += vy
+                induced_z[i, k - 1] += vz
+    return induced_y, induced_z
+
+
+@njit(cache=True)
+def circulation_system(elements: Elements) -> FloatArray:
+    """Matrix (N, N) of the circulation's linear system, system @ Gamma = pi c |U| alpha.
+
+    The downwash counts normal to the line's projection on the plane across the body's x axis.
+    """
+    n = elements.chord.size
+    system = np.empty((n, n))
+    for i in range(n):
+        dy = elements.node[i + 1, 1] - elements.node[i, 1]
+        dz = elements.node[i + 1, 2] - elements.node[i, 2]
+        scale = np.pi * elements.chord[i] / np.sqrt(dy * dy + dz * dz)
+        for j in range(n):
+            system[i, j] = scale * (elements.induced_z[i, j] * dy - elements.induced_y[i, j] * dz)
+        system[i, i] += 1.0
+    return system

@@ -1,0 +1,33 @@
+"""Loads of the wing about its joints (MODEL section 8: each segment carries its elements' loads)."""
+
+import numpy as np
+from numba import njit
+
+from birdmb._typing import FloatArray
+from birdmb.wing.arrays import WingArrays
+from birdmb.wing.chain import Chain
+
+
+@njit(cache=True)
+def joint_torques(
+    wing: WingArrays, chain: Chain, position: FloatArray, force: FloatArray, beyond: FloatArray
+) -> FloatArray:
+    """Torques (J,) N m that the elements' loads exert about the joints of the right wing.
+
+    `position` (N, 3) m of the loads from G, `force` (N, 3) N, both in body axes; `beyond` (N, 2)
+    the fractions carried beyond elbow and wrist.
+    """
+    torque = np.zeros(wing.segment.size)
+    moment = np.zeros((3, 3))
+    for e in range(force.shape[0]):
+        f = force[e]
+        for bone in range(3):
+            share = 1.0 if bone == 0 else beyond[e, bone - 1]
+            r = position[e] - wing.root - chain.origin[bone]
+            moment[bone, 0] += share * (r[1] * f[2] - r[2] * f[1])
+            moment[bone, 1] += share * (r[2] * f[0] - r[0] * f[2])
+            moment[bone, 2] += share * (r[0] * f[1] - r[1] * f[0])
+    for j in range(torque.size):
+        for i in range(3):
+            torque[j] += chain.axis[j, i] * moment[wing.segment[j], i]
+    return torque

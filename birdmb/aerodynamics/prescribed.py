@@ -1,0 +1,131 @@
+"""A wing whose joints are all prescribed: everything but the body's motion is known per phase.
+
+The wing's shape, its velocities and the inverse of the circulation's linear system depend on the
+phase alone (MODEL section 6, last point), so they are computed once and shared by every trajectory
+and every perturbation of it. What remains per evaluation is three products of small matrices.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from birdmb._typing import BoolArray, FloatArray
+from birdmb.aerodynamics.circulation import section_flow
+from birdmb.aerodynamics.elements import Elements, circulation_system, place_elements
+from birdmb.wing.arrays import WingArrays
+from birdmb.wing.shape import wing_shape
+
+
+class PrescribedWing(NamedTuple):
+    """Elements at P phases: the arrays of `Elements` stacked along a first axis, and inverses."""
+
+    elements: Elements
+    inverse: FloatArray  # (P, N, N) of the circulation's linear system
+    beyond: FloatArray  # (P, N, 2), as in `WingShape`
+    converged: BoolArray  # (P,) the lifting line was found
+
+
+@njit(cache=True)
+def driven(wing: WingArrays, t: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Driver angles (rad), rates and accelerations of all joints at time t (s)."""
+    argument = wing.angular_frequency * t + wing.phase
+    swing = wing.amplitude * np.sin(argument)
+    return (
+        wing.offset + swing,
+        wing.angular_frequency * wing.amplitude * np.cos(argument),
+        -(wing.angular_frequency**2) * swing,
+    )
+
+
+def prescribed_wing(
+    wing: WingArrays, times: FloatArray, elements: int, rounding: float, published: bool
+) -> PrescribedWing:
+    """Tabulate the wing at `times` (P,) s."""
+    shapes = [
+        wing_shape(wing, *driven(wing, t)[:2], elements, rounding, published) for t in times
+    ]
+    placed = [place_elements(shape, wing.root) for shape in shapes]
+    system = np.stack([circulation_system(elements) for elements in placed])
+    return PrescribedWing(
+        Elements(*(np.stack(arrays) for arrays in zip(*placed, strict=True))),
+        np.linalg.inv(system),
+        np.stack([shape.beyond for shape in shapes]),
+        np.array([shape.converged for shape in shapes]),
+    )
+
+
+@njit(cache=True)
+def at_phase(stack: Elements, k: int) -> Elements:
+    """Elements at the k-th phase, as views."""
+    return Elements(
+        stack.position[k],
+        stack.velocity[k],
+        stack.chord_direction[k],
+        stack.normal[k],
+        stack.span_direction[k],
+        stack.chord[k],
+        stack.node[k],
+        stack.width[k],
+        stack.induced_y[k],
+        stack.induced_z[k],
+    )
+
+
+@njit(cache=True)
+def resultant_and_derivatives(
+    elements: Elements, inverse: FloatArray, density: float, u: float, w: float, q: float
+) -> FloatArray:
+    """Rows F_x, F_z (N), M_y (N m) of both wings; columns: value, d/du, d/dw, d/dq; (3, 4).
+
+    The wind is affine in (u, w, q), so the derivatives are exact.
+    """
+    n = elements.chord.size
+    wind, speed, alpha = section_flow(elements, u, w, q)
+    bound = np.empty((n, 4))
+    # Change of the wind by u, w, q: the velocities of the body's points, reversed.
+    change = np.zeros((n, 3, 4))
+    for e in range(n):
+        c, nn, t = elements.chord_direction[e], elements.normal[e], elements.span_direction[e]
+        change[e, 0, 1] = -1.0
+        change[e, 2, 2] = -1.0
+        change[e, 0, 3] = -elements.position[e, 2]
+        change[e, 2, 3] = elements.position[e, 0]
+        factor = np.pi * elements.chord[e]
+        along = wind[e, 0] * t[0] + wind[e, 1] * t[1] + wind[e, 2] * t[2]
+        px, py, pz = wind[e, 0] - along * t[0], wind[e, 1] - along * t[1], wind[e, 2] - along * t[2]
+        up = px * nn[0] + py * nn[1] + pz * nn[2]
+        back = px * c[0] + py * c[1] + pz * c[2]
+        section = up * up + back * back
+        bound[e, 0] = factor * speed[e] * alpha[e]
+        for m in range(1, 4):
+            dx, dz = change[e, 0, m], change[e, 2, m]
+            d_along = dx * t[0] + dz * t[2]
+            gx, gy, gz = dx - d_along * t[0], -d_along * t[1], dz - d_along * t[2]
+            d_speed = (px * gx + py * gy + pz * gz) / speed[e]
+            d_up = gx * nn[0] + gy * nn[1] + gz * nn[2]
+            d_back = gx * c[0] + gy * c[1] + gz * c[2]
+            d_alpha = (back * d_up - up * d_back) / section
+            bound[e, m] = factor * (d_speed * alpha[e] + speed[e] * d_alpha)
+    circulation = inverse @ bound
+    vy = elements.induced_y @ circulation
+    vz = elements.induced_z @ circulation
+    total = np.zeros((3, 4))
+    for e in range(n):
+        t = elements.span_direction[e]
+        gamma = circulation[e, 0]
+        x, y, z = wind[e, 0], wind[e, 1] + vy[e, 0], wind[e, 2] + vz[e, 0]
+        scale = 2.0 * density * elements.width[e]
+        for m in range(4):
+            if m == 0:
+                fx = gamma * (y * t[2] - z * t[1])
+                fz = gamma * (x * t[1] - y * t[0])
+            else:
+                dx, dy, dz = change[e, 0, m], vy[e, m], change[e, 2, m] + vz[e, m]
+                g = circulation[e, m]
+                fx = g * (y * t[2] - z * t[1]) + gamma * (dy * t[2] - dz * t[1])
+                fz = g * (x * t[1] - y * t[0]) + gamma * (dx * t[1] - dy * t[0])
+            total[0, m] += scale * fx
+            total[1, m] += scale * fz
+            total[2, m] += scale * (elements.position[e, 2] * fx - elements.position[e, 0] * fz)
+    return total

@@ -1,0 +1,211 @@
+"""The bird assembled in Exudyn: one kinematic tree of body and both wings.
+
+Coordinates: X (forward), Z (down), pitch angle, then the joints of the right wing in chain order
+and those of the left. Prescribed joints are held to their drivers by a driven inertia: a second
+object on the same node whose mass matrix is B on them alone and whose force is B times the driver's
+acceleration. No constraint is left, so Exudyn's explicit integrators apply, and a prescribed joint
+strays from its driver by no more than its loads over B.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import exudyn as exu
+import numpy as np
+from exudyn.itemInterface import NodeGenericODE2, ObjectGenericODE2, ObjectKinematicTree
+from scipy.spatial.transform import Rotation
+
+from birdmb._typing import BoolArray, FloatArray
+from birdmb.topology import BONES, Bird
+
+BODY_COORDINATES = 3
+DRIVEN_INERTIA = 1e12
+_MIRROR = np.diag([1.0, -1.0, 1.0])
+
+# (t, coordinates, velocities) -> generalised forces or accelerations, all (n,)
+CoordinateFunction = Callable[[float, FloatArray, FloatArray], FloatArray]
+TimeFunction = Callable[[float], FloatArray]
+
+
+@dataclass
+class _Link:
+    """A link of the tree; its frame's z axis is the joint's axis."""
+
+    parent: int
+    joint: exu.JointType
+    offset: FloatArray
+    transformation: FloatArray
+    mass: float = 0.0
+    centre: FloatArray = field(default_factory=lambda: np.zeros(3))
+    inertia: FloatArray = field(default_factory=lambda: np.zeros((3, 3)))
+
+    def add_body(self, mass: float, centre: FloatArray, inertia: FloatArray) -> None:
+        """Weld a body on: `centre` (3,) and `inertia` (3, 3) about it, in the link's frame."""
+        total = self.mass + mass
+        if total == 0.0:
+            self.inertia = self.inertia + inertia
+            return
+        joint_centre = (self.mass * self.centre + mass * centre) / total
+        self.inertia = (
+            self.inertia
+            + _steiner(self.mass, self.centre - joint_centre)
+            + inertia
+            + _steiner(mass, centre - joint_centre)
+        )
+        self.mass, self.centre = total, joint_centre
+
+
+def _steiner(mass: float, r: FloatArray) -> FloatArray:
+    return mass * (float(r @ r) * np.eye(3) - np.outer(r, r))
+
+
+def _axis_frame(axis: FloatArray) -> FloatArray:
+    """Rotation matrix that takes the z axis to `axis`."""
+    rotation, _ = Rotation.align_vectors([axis], [[0.0, 0.0, 1.0]])
+    return np.asarray(rotation.as_matrix())
+
+
+def bird_links(bird: Bird) -> list[_Link]:
+    """Links of the tree: X, Z, pitch, right chain, left chain (body axes at zero coordinates)."""
+    pitch = _axis_frame(np.array([0.0, 1.0, 0.0]))
+    links = [
+        _Link(-1, exu.JointType.PrismaticX, np.zeros(3), np.eye(3)),
+        _Link(0, exu.JointType.PrismaticZ, np.zeros(3), np.eye(3)),
+        _Link(1, exu.JointType.RevoluteZ, np.zeros(3), pitch),
+    ]
+    # Only the pitch inertia can matter in longitudinal flight.
+    inertia = np.diag([0.0, bird.body.inertia_yy, 0.0])
+    links[2].add_body(bird.body.mass, np.zeros(3), pitch.T @ inertia @ pitch)
+    root = np.array([bird.wing.root.x, bird.wing.root.y, bird.wing.root.z])
+    for side in (np.eye(3), _MIRROR):
+        _add_wing(links, bird, side, side @ root, pitch)
+    return links
+
+
+def _add_wing(
+    links: list[_Link], bird: Bird, side: FloatArray, root: FloatArray, body_frame: FloatArray
+) -> None:
+    # Position and axes of the segment at hand, seen from the frame of the link that carries it.
+    parent, place, axes = 2, body_frame.T @ root, body_frame.T
+    handed = np.linalg.det(side)
+    for bone in BONES:
+        segment = getattr(bird.segments, bone)
+        for joint in bird.joints:
+            if joint.segment != bone:
+                continue
+            # A reflection turns an axis like a mirrored vector, and the sense of rotation besides.
+            frame = _axis_frame(handed * side @ np.array(joint.axis))
+            links.append(_Link(parent, exu.JointType.RevoluteZ, place, axes @ frame))
+            parent, place, axes = len(links) - 1, np.zeros(3), frame.T
+        centre = place + axes @ side @ np.array(segment.centre_of_mass)
+        inertia = axes @ side @ np.array(segment.inertia) @ side @ axes.T
+        links[parent].add_body(segment.mass, centre, inertia)
+        place = place + axes @ side @ np.array([0.0, segment.length, 0.0])
+
+
+class ExudynBird:
+    """The assembled bird, ready to be integrated and asked for its mass matrix.
+
+    Args:
+        bird: the bird.
+        forces: generalised forces (n,) on all coordinates but gravity and inertia.
+        prescribed: which coordinates follow an acceleration given in time.
+        driver: their accelerations (n,) at a time; entries of free coordinates are not read.
+    """
+
+    def __init__(
+        self,
+        bird: Bird,
+        forces: CoordinateFunction,
+        prescribed: BoolArray,
+        driver: TimeFunction,
+    ) -> None:
+        links = bird_links(bird)
+        n = self.size = len(links)
+        self._container = exu.SystemContainer()
+        self.mbs = self._container.AddSystem()
+        zeros = [0.0] * n
+        node = self.mbs.AddNode(
+            NodeGenericODE2(
+                referenceCoordinates=zeros,
+                initialCoordinates=zeros,
+                initialCoordinates_t=zeros,
+                numberOfODE2Coordinates=n,
+            )
+        )
+
+        def tree_forces(
+            _mbs: object, t: float, _item: int, q: Sequence[float], v: Sequence[float]
+        ) -> FloatArray:
+            return forces(t, np.array(q), np.array(v))
+
+        self.tree = self.mbs.AddObject(
+            ObjectKinematicTree(
+                nodeNumber=node,
+                jointTypes=[link.joint for link in links],
+                linkParents=[link.parent for link in links],
+                jointTransformations=exu.Matrix3DList([link.transformation for link in links]),
+                jointOffsets=exu.Vector3DList([link.offset for link in links]),
+                linkInertiasCOM=exu.Matrix3DList([link.inertia for link in links]),
+                linkCOMs=exu.Vector3DList([link.centre for link in links]),
+                linkMasses=[link.mass for link in links],
+                gravity=[0.0, 0.0, bird.gravity],
+                forceUserFunction=tree_forces,
+            )
+        )
+        inertia = np.where(prescribed, DRIVEN_INERTIA, 0.0)
+
+        def driving_forces(
+            _mbs: object, t: float, _item: int, _q: Sequence[float], _v: Sequence[float]
+        ) -> FloatArray:
+            return inertia * driver(t)
+
+        if prescribed.any():
+            self.mbs.AddObject(
+                ObjectGenericODE2(
+                    nodeNumbers=[node],
+                    massMatrix=np.diag(inertia),
+                    forceUserFunction=driving_forces,
+                )
+            )
+        self.mbs.Assemble()
+        self._settings = _quiet_settings()
+
+    def integrate(
+        self, q: FloatArray, v: FloatArray, t0: float, t1: float, steps: int
+    ) -> tuple[FloatArray, FloatArray]:
+        """Coordinates and velocities (n,) at t1 after `steps` steps of RK67 (order 6) from t0."""
+        data = self.mbs.systemData
+        initial = exu.ConfigurationType.Initial
+        data.SetODE2Coordinates(q, initial)
+        data.SetODE2Coordinates_t(v, initial)
+        time = self._settings.timeIntegration
+        time.startTime, time.endTime, time.numberOfSteps = t0, t1, steps
+        self.mbs.SolveDynamic(
+            self._settings, solverType=exu.DynamicSolverType.RK67, storeSolver=False
+        )
+        return np.array(data.GetODE2Coordinates()), np.array(data.GetODE2Coordinates_t())
+
+    def mass_and_forces(
+        self, t: float, q: FloatArray, v: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Mass matrix M (n, n) and left-hand side L (n,), for which M q'' + L = actuator forces."""
+        data = self.mbs.systemData
+        current = exu.ConfigurationType.Current
+        data.SetODE2Coordinates(q, current)
+        data.SetODE2Coordinates_t(v, current)
+        data.SetTime(t, current)
+        mass = self.mbs.ComputeItem(self.tree, exu.ComputeItemType.MassMatrix)
+        left = self.mbs.ComputeItem(self.tree, exu.ComputeItemType.ODE2LHS)
+        return np.array(mass), np.array(left)
+
+
+def _quiet_settings() -> exu.SimulationSettings:
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.verboseMode = 0
+    settings.timeIntegration.explicit.computeEndOfStepAccelerations = False
+    settings.solution.file.write = False
+    settings.solution.sensors.active = False
+    settings.parallel.numberOfThreads = 1
+    settings.displayComputationTime = False
+    return settings

@@ -1,0 +1,235 @@
+"""The multibody bird in Exudyn, its joints prescribed or compliant (MODEL section 8)."""
+
+from functools import cached_property, lru_cache
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from birdmb._typing import BoolArray, FloatArray
+from birdmb.aerodynamics.prescribed import driven
+from birdmb.errors import StateError
+from birdmb.models.exudyn_tree import BODY_COORDINATES, ExudynBird
+from birdmb.models.flight import Flight
+from birdmb.models.multibody_kernel import body_velocity, wing_forces
+from birdmb.models.rigid import RigidModel
+from birdmb.models.wing_model import (
+    BODY_SCALE,
+    BODY_STATES,
+    BODY_UNITS,
+    WingModel,
+    lifting_line_lost,
+)
+from birdmb.topology import Bird
+from birdmb.wing.shape import WingShape, wing_shape
+
+STEPS_PER_BEAT = 50
+_SHAPES_KEPT = 8192
+_JOINT_SCALE = (0.5, 10.0)  # rad, rad/s
+_BEATS_TO_SETTLE = 6
+
+
+class MultibodyModel(WingModel):
+    """Body and both wings as one kinematic tree; prescribed joints follow their drivers exactly.
+
+    The states are the body's four, then angle (rad) and rate (rad/s) of each compliant joint, named
+    `shoulder.flap` and `shoulder.flap.rate`. Left and right wing move as mirror images. The point
+    whose velocity is `u`, `w` is the centre of mass of the body without its wings.
+
+    Integrated by Exudyn's explicit RK67 (order 6) with fixed steps, for shooting needs a flow that
+    is smooth in its start.
+
+    Args:
+        bird: the bird.
+        steps_per_beat: integration steps per wingbeat.
+    """
+
+    def __init__(self, bird: Bird, *, steps_per_beat: int = STEPS_PER_BEAT) -> None:
+        super().__init__(bird)
+        self.steps_per_beat = steps_per_beat
+        names = [joint.name for joint in bird.compliant_joints]
+        self.state_names = BODY_STATES + tuple(n for j in names for n in (j, f"{j}.rate"))
+        self.state_units = BODY_UNITS + ("rad", "rad/s") * len(names)
+        self._compliant = np.array([joint.mode == "compliant" for joint in bird.joints], dtype=bool)
+        self._stiffness = np.array([j.stiffness or 0.0 for j in bird.joints]) * self._compliant
+        self._damping = np.array([j.damping or 0.0 for j in bird.joints]) * self._compliant
+        self._turning = self._joints_that_turn_the_wing_as_a_whole()
+        self._shape = lru_cache(maxsize=_SHAPES_KEPT)(self._shape_at)
+
+    def _options(self) -> dict[str, Any]:
+        return {"steps_per_beat": self.steps_per_beat}
+
+    @property
+    def state_scale(self) -> FloatArray:
+        """Typical sizes of the states, (n,)."""
+        return np.array(BODY_SCALE + _JOINT_SCALE * int(self._compliant.sum()))
+
+    def joint_motion(self, t: float, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Angles (J,) rad and rates (J,) rad/s of the right wing's joints at t (s) in state x."""
+        angles, rates, _ = driven(self.wing, t)
+        angles[self._compliant] = x[4::2]
+        rates[self._compliant] = x[5::2]
+        return angles, rates
+
+    def flow(self, x0: npt.ArrayLike, t0: float, t1: float) -> FloatArray:
+        """State (n,) at t1 (s) of the flight through x0 (n,) at t0; raises `StateError`."""
+        steps = self._steps(t0, t1)
+        q, v = self._exudyn.integrate(*self._coordinates(t0, np.asarray(x0, float)), t0, t1, steps)
+        return self._state(q, v, f"between t = {t0:.4g} and {t1:.4g} s")
+
+    def trajectory(
+        self, x0: npt.ArrayLike, t0: float, t1: float, times: npt.ArrayLike | None = None
+    ) -> Flight:
+        """The flight from x0 (n,) at t0 to t1 (s), at the integration's steps or at `times`."""
+        grid = np.linspace(t0, t1, self._steps(t0, t1) + 1)
+        states = np.empty((grid.size, len(self.state_names)))
+        rates = np.empty_like(states)
+        states[0] = np.asarray(x0, dtype=float)
+        for i, t in enumerate(grid):
+            if i > 0:
+                q, v = self._exudyn.integrate(
+                    *self._coordinates(grid[i - 1], states[i - 1]), grid[i - 1], t, 1
+                )
+                states[i] = self._state(q, v, f"before t = {t:.4g} s")
+            rates[i] = self.rhs(t, states[i])
+        flight = Flight(self.state_names, grid, states, rates)
+        return flight if times is None else flight.at(times)
+
+    def rhs(self, t: float, x: npt.ArrayLike) -> FloatArray:
+        """Rates (n,) of the states at t (s), from the exact partition of the equations of motion."""
+        state = np.asarray(x, dtype=float)
+        _, v = self._coordinates(t, state)
+        a, _ = self.accelerations(t, state)
+        _, _, q, theta = state[:4]
+        u_rate, w_rate = body_velocity(theta, a[0], a[1])
+        rates = np.empty_like(state)
+        rates[:4] = u_rate - q * state[1], w_rate + q * state[0], a[2], q
+        joints = np.flatnonzero(self._compliant) + BODY_COORDINATES
+        rates[4::2], rates[5::2] = v[joints], a[joints]
+        return rates
+
+    def accelerations(self, t: float, x: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """Accelerations (n,) of all coordinates and the actuators' forces (n,) on them.
+
+        Coordinates X, Z (m), pitch (rad), right and left joints (rad). The forces (N, N m) are those
+        that hold the prescribed joints to their drivers; springs and dampers are not among them.
+        """
+        q, v = self._coordinates(t, np.asarray(x, dtype=float))
+        mass, left = self._exudyn.mass_and_forces(t, q, v)
+        a = self._driver_accelerations(t)
+        free = ~self._prescribed
+        a[free] = np.linalg.solve(
+            mass[np.ix_(free, free)], -left[free] - mass[np.ix_(free, ~free)] @ a[~free]
+        )
+        forces = np.where(free, 0.0, mass @ a + left)
+        return a, forces
+
+    def spring_torques(self, t: float, x: npt.ArrayLike) -> FloatArray:
+        """Torques (J,) N m of springs and dampers on the joints of one wing; 0 where prescribed."""
+        angles, rates = self.joint_motion(t, np.asarray(x, dtype=float))
+        return self._spring_torques(t, angles, rates)
+
+    def initial_guess(self) -> FloatArray:
+        """State (n,) at t = 0: the rigid bird's, with the compliant joints settled about it.
+
+        The compliant joints are left to swing for some beats on a body that flies on steadily.
+        """
+        body = RigidModel(self.bird).initial_guess()
+        if not self._compliant.any():
+            return body
+        held = self._prescribed.copy()
+        held[:BODY_COORDINATES] = True
+        frozen = ExudynBird(self.bird, self._forces, held, self._driver_accelerations)
+        angles, rates, _ = driven(self.wing, 0.0)
+        start = np.column_stack([angles, rates])[self._compliant].ravel()
+        q, v = self._coordinates(0.0, np.concatenate([body, start]))
+        T = self.bird.period
+        for _ in range(_BEATS_TO_SETTLE):
+            q, v = frozen.integrate(q, v, 0.0, T, self.steps_per_beat)
+        settled = self._state(q, v, "while the compliant joints settled for a first guess")
+        return np.concatenate([body, settled[4:]])
+
+    @cached_property
+    def _prescribed(self) -> BoolArray:
+        joints = ~self._compliant
+        return np.concatenate([np.zeros(BODY_COORDINATES, bool), joints, joints])
+
+    @cached_property
+    def _exudyn(self) -> ExudynBird:
+        return ExudynBird(self.bird, self._forces, self._prescribed, self._driver_accelerations)
+
+    def _steps(self, t0: float, t1: float) -> int:
+        return max(1, round(self.steps_per_beat * (t1 - t0) / self.bird.period))
+
+    def _coordinates(self, t: float, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Coordinates and velocities (n,) of the tree, with X = Z = 0, of state x at time t."""
+        u, w, q, theta = x[:4]
+        c, s = np.cos(theta), np.sin(theta)
+        angles, rates = self.joint_motion(t, x)
+        return (
+            np.concatenate([[0.0, 0.0, theta], angles, angles]),
+            np.concatenate([[u * c + w * s, -u * s + w * c, q], rates, rates]),
+        )
+
+    def _state(self, q: FloatArray, v: FloatArray, when: str) -> FloatArray:
+        if not (np.isfinite(q).all() and np.isfinite(v).all()):
+            raise StateError(
+                f"{self.bird.name}: the flight diverged {when}; where the bird itself is sound, "
+                f"steps_per_beat = {self.steps_per_beat} is too few for its stiffest joint."
+            )
+        joints = np.flatnonzero(self._compliant) + BODY_COORDINATES
+        u, w = body_velocity(q[2], v[0], v[1])
+        return np.concatenate([[u, w, v[2], q[2]], np.column_stack([q[joints], v[joints]]).ravel()])
+
+    def _joints_that_turn_the_wing_as_a_whole(self) -> int:
+        """How many joints at the shoulder only turn a shape that the other joints determine.
+
+        Zero, so that the shape must be computed for every state, if a compliant joint sits further
+        out, or if a feather follows a shoulder joint by another share than fully.
+        """
+        shoulder = int(np.count_nonzero(self.wing.segment == 0))
+        if self._compliant[shoulder:].any() or (self.wing.feather_share[:, :shoulder] != 1.0).any():
+            return 0
+        return shoulder if not self.wing.twist[:shoulder].any() else 0
+
+    def _shape_at(self, t: float) -> WingShape:
+        """The wing at time t (s) with the joints that turn it as a whole at zero."""
+        angles, rates, _ = driven(self.wing, t)
+        angles[: self._turning] = 0.0
+        rates[: self._turning] = 0.0
+        return self._checked_shape(t, angles, rates)
+
+    def _checked_shape(self, t: float, angles: FloatArray, rates: FloatArray) -> WingShape:
+        shape = wing_shape(self.wing, angles, rates, *self._discretisation)
+        if not shape.converged:
+            raise lifting_line_lost(self.bird, t, angles)
+        return shape
+
+    def _forces(self, t: float, q: FloatArray, v: FloatArray) -> FloatArray:
+        """Generalised forces (n,) of air, springs and dampers: Exudyn's user function."""
+        joints = self._compliant.size
+        angles = q[BODY_COORDINATES : BODY_COORDINATES + joints]
+        rates = v[BODY_COORDINATES : BODY_COORDINATES + joints]
+        shape = self._shape(t) if self._turning else self._checked_shape(t, angles, rates)
+        body, torques = wing_forces(
+            self.wing,
+            shape,
+            self._turning,
+            angles,
+            rates,
+            self.bird.air.density,
+            q[2],
+            v[0],
+            v[1],
+            v[2],
+        )
+        torques += self._spring_torques(t, angles, rates)
+        return np.concatenate([body, torques, torques])
+
+    def _spring_torques(self, t: float, angles: FloatArray, rates: FloatArray) -> FloatArray:
+        driver, driver_rates, _ = driven(self.wing, t)
+        return -self._stiffness * (angles - driver) - self._damping * (rates - driver_rates)
+
+    def _driver_accelerations(self, t: float) -> FloatArray:
+        _, _, accelerations = driven(self.wing, t)
+        return np.concatenate([np.zeros(BODY_COORDINATES), accelerations, accelerations])

@@ -1,0 +1,55 @@
+"""Compiled generalised forces of the air on the multibody bird."""
+
+import numpy as np
+from numba import njit
+
+from birdmb._typing import FloatArray
+from birdmb.aerodynamics.circulation import element_loads, resultant
+from birdmb.aerodynamics.elements import place_elements
+from birdmb.aerodynamics.joints import joint_torques
+from birdmb.wing.arrays import WingArrays
+from birdmb.wing.chain import frame_after, joint_chain
+from birdmb.wing.shape import WingShape, turned
+
+
+@njit(cache=True)
+def body_velocity(theta: float, vx: float, vz: float) -> tuple[float, float]:
+    """Velocity u, w along the body's axes from that along X (forward) and Z (down)."""
+    c, s = np.cos(theta), np.sin(theta)
+    return vx * c - vz * s, vx * s + vz * c
+
+
+@njit(cache=True)
+def _body_forces(loads: FloatArray, theta: float) -> FloatArray:
+    """Generalised forces on X, Z and the pitch angle from F_x, F_z and M_y in body axes."""
+    c, s = np.cos(theta), np.sin(theta)
+    return np.array([loads[0] * c + loads[1] * s, -loads[0] * s + loads[1] * c, loads[2]])
+
+
+@njit(cache=True)
+def wing_forces(
+    wing: WingArrays,
+    shape: WingShape,
+    turning: int,
+    angles: FloatArray,
+    rates: FloatArray,
+    density: float,
+    theta: float,
+    vx: float,
+    vz: float,
+    pitch_rate: float,
+) -> tuple[FloatArray, FloatArray]:
+    """Generalised forces of the air on body (3,) and on the joints (J,) of each wing.
+
+    `shape` is the wing with its first `turning` joints at zero: they carry it as a whole, so their
+    `angles` and `rates` turn it into body axes here.
+    """
+    chain = joint_chain(wing, angles)
+    spin = np.zeros(3)
+    for j in range(turning):
+        spin += rates[j] * chain.axis[j]
+    placed = place_elements(turned(shape, frame_after(wing, angles, turning), spin), wing.root)
+    u, w = body_velocity(theta, vx, vz)
+    loads = element_loads(placed, density, u, w, pitch_rate)
+    torques = joint_torques(wing, chain, placed.position, loads.force, shape.beyond)
+    return _body_forces(resultant(placed, loads.force), theta), torques

@@ -1,0 +1,113 @@
+"""The rigid bird: four states, massless wings that follow their drivers (MODEL section 7)."""
+
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from birdmb._typing import FloatArray
+from birdmb.aerodynamics.prescribed import PrescribedWing, driven, prescribed_wing
+from birdmb.errors import StateError
+from birdmb.models.flight import Flight
+from birdmb.models.rigid_kernel import integrate_rigid, rigid_rates
+from birdmb.models.trim import mean_trim
+from birdmb.models.wing_model import (
+    BODY_SCALE,
+    BODY_STATES,
+    BODY_UNITS,
+    WingModel,
+    lifting_line_lost,
+)
+from birdmb.topology import Bird
+
+STEPS_PER_BEAT = 50
+
+
+class RigidModel(WingModel):
+    """Rigid body with massless wings; all joints follow their drivers, compliant ones too.
+
+    Integrated by classical Runge-Kutta steps, with exact variational equations, over a table of
+    the wing at every half step.
+
+    Args:
+        bird: the bird.
+        steps_per_beat: Runge-Kutta steps per wingbeat.
+    """
+
+    state_names = BODY_STATES
+    state_units = BODY_UNITS
+
+    def __init__(self, bird: Bird, *, steps_per_beat: int = STEPS_PER_BEAT) -> None:
+        super().__init__(bird)
+        self.steps_per_beat = steps_per_beat
+        self._constants = (bird.body.mass, bird.body.inertia_yy, bird.gravity, bird.air.density)
+        self._table = lru_cache(maxsize=64)(self._tabulate)
+
+    def _options(self) -> dict[str, Any]:
+        return {"steps_per_beat": self.steps_per_beat}
+
+    @property
+    def state_scale(self) -> FloatArray:
+        """Typical sizes of the states, (4,)."""
+        return np.array(BODY_SCALE)
+
+    def rhs(self, t: float, x: npt.ArrayLike) -> FloatArray:
+        """Rates (4,) of the states at time t (s) in state x (4,)."""
+        wing = self._tabulate(t, 0.0, 0)
+        rates, _ = rigid_rates(wing, 0, np.asarray(x, dtype=float), *self._constants)
+        return rates
+
+    def flow(self, x0: npt.ArrayLike, t0: float, t1: float) -> FloatArray:
+        """State (4,) at t1 (s) of the flight through x0 (4,) at t0; raises `StateError`."""
+        return self._integrate(x0, t0, t1)[0][-1]
+
+    def flow_jacobian(
+        self, x0: npt.ArrayLike, t0: float, t1: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """State (4,) at t1 and its derivative (4, 4) by x0, exact for the discrete steps."""
+        states, _, sensitivity = self._integrate(x0, t0, t1)
+        return states[-1], sensitivity
+
+    def trajectory(
+        self, x0: npt.ArrayLike, t0: float, t1: float, times: npt.ArrayLike | None = None
+    ) -> Flight:
+        """The flight from x0 (4,) at t0 to t1 (s), at the integration's steps or at `times`."""
+        states, rates, _ = self._integrate(x0, t0, t1)
+        flight = Flight(self.state_names, np.linspace(t0, t1, states.shape[0]), states, rates)
+        return flight if times is None else flight.at(times)
+
+    def initial_guess(self) -> FloatArray:
+        """State (4,) in which the loads, averaged over a beat, come closest to balance."""
+        times = np.linspace(0.0, self.bird.period, 17)[:-1]
+        wing = prescribed_wing(self.wing, times, *self._discretisation)
+        return mean_trim(self.bird, wing)
+
+    def _integrate(
+        self, x0: npt.ArrayLike, t0: float, t1: float
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        steps = max(1, round(self.steps_per_beat * (t1 - t0) / self.bird.period))
+        start = np.asarray(x0, dtype=float)
+        found = integrate_rigid(
+            self._table(t0 % self.bird.period, t1 - t0, steps),
+            start,
+            (t1 - t0) / steps,
+            *self._constants,
+        )
+        if not np.isfinite(found[0]).all():
+            raise StateError(
+                f"{self.bird.name}: the flight from t = {t0:.4g} s diverged before "
+                f"t = {t1:.4g} s (start: {self._described(start)})."
+            )
+        return found
+
+    def _described(self, x: FloatArray) -> str:
+        return ", ".join(f"{n} = {v:.4g}" for n, v in zip(self.state_names, x, strict=True))
+
+    def _tabulate(self, t0: float, duration: float, steps: int) -> PrescribedWing:
+        times = t0 + duration * np.arange(2 * steps + 1) / max(2 * steps, 1)
+        wing = prescribed_wing(self.wing, times, *self._discretisation)
+        if not wing.converged.all():
+            t = float(times[np.argmin(wing.converged)])
+            raise lifting_line_lost(self.bird, t, driven(self.wing, t)[0])
+        return wing

@@ -1,0 +1,64 @@
+"""A first guess of the state in which a bird flies: the loads balanced on average over a beat."""
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from birdmb._typing import FloatArray
+from birdmb.aerodynamics.prescribed import PrescribedWing, at_phase, resultant_and_derivatives
+from birdmb.topology import Bird
+
+_SLOWEST, _FASTEST = 1.0, 60.0  # m/s
+
+
+def mean_trim(bird: Bird, wing: PrescribedWing) -> FloatArray:
+    """State (4,) u, w, q = 0, theta that balances the mean loads of a body held steady.
+
+    `wing` holds phases at equal distances over a whole beat. Where no state balances them, the one
+    that comes closest is returned: the search for the limit cycle has the last word.
+    """
+    phases = wing.inverse.shape[0]
+    mass, inertia, g = bird.body.mass, bird.body.inertia_yy, bird.gravity
+
+    def mean_loads(u: float, w: float) -> FloatArray:
+        total = np.zeros((3, 4))
+        for k in range(phases):
+            total += resultant_and_derivatives(
+                at_phase(wing.elements, k), wing.inverse[k], bird.air.density, u, w, 0.0
+            )
+        return total / phases
+
+    def accelerations(y: FloatArray) -> FloatArray:
+        u, w, theta = y
+        force_x, force_z, moment = mean_loads(u, w)[:, 0]
+        return np.array(
+            [
+                force_x / mass - g * np.sin(theta),
+                force_z / mass + g * np.cos(theta),
+                # In m/s2 at the tail of the body's radius of gyration, to weigh like the others.
+                moment / np.sqrt(mass * inertia),
+            ]
+        )
+
+    def jacobian(y: FloatArray) -> FloatArray:
+        u, w, theta = y
+        slopes = mean_loads(u, w)[:, 1:3]
+        scale = np.array([mass, mass, np.sqrt(mass * inertia)])
+        gravity = np.array([-g * np.cos(theta), -g * np.sin(theta), 0.0])
+        return np.column_stack([slopes / scale[:, None], gravity])
+
+    best = None
+    for u in (12.0, 20.0, 7.0, 35.0):
+        found = least_squares(
+            accelerations,
+            [u, -0.05 * u, 0.0],
+            jac=jacobian,
+            bounds=([_SLOWEST, -_FASTEST, -1.5], [_FASTEST, _FASTEST, 1.5]),
+            x_scale=[10.0, 2.0, 0.2],
+        )
+        if best is None or found.cost < best.cost:
+            best = found
+        if best.cost < 1e-12:
+            break
+    assert best is not None
+    u, w, theta = best.x
+    return np.array([u, w, 0.0, theta])

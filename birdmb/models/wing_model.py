@@ -1,0 +1,86 @@
+"""What both models of a bird have in common: the bird, its wing as arrays, its states' names."""
+
+from functools import partial
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from birdmb._typing import FloatArray
+from birdmb.aerodynamics.circulation import element_loads
+from birdmb.aerodynamics.elements import place_elements
+from birdmb.aerodynamics.joints import joint_torques
+from birdmb.aerodynamics.prescribed import driven
+from birdmb.errors import StateError
+from birdmb.models.loads import Loads, assemble_loads
+from birdmb.topology import Bird
+from birdmb.wing.arrays import wing_arrays
+from birdmb.wing.chain import joint_chain
+from birdmb.wing.shape import wing_shape
+
+BODY_STATES = ("u", "w", "q", "theta")
+BODY_UNITS = ("m/s", "m/s", "rad/s", "rad")
+BODY_SCALE = (10.0, 2.0, 1.0, 0.2)
+
+
+class WingModel:
+    """A bird in symmetric longitudinal flight, with the loads of its wings.
+
+    The body's states are `u`, `w` (m/s, velocity of the body's centre of mass along the body's x
+    and z axes), `q` (rad/s, pitch rate) and `theta` (rad, pitch angle), nose up positive.
+    """
+
+    def __init__(self, bird: Bird) -> None:
+        self.bird = bird
+        self.wing = wing_arrays(bird)
+        self.period: float | None = bird.period
+        numbers = bird.wing.resolved_discretisation
+        self._discretisation = (numbers.elements, numbers.rounding, numbers.scheme == "one-step")
+
+    def joint_motion(self, t: float, _x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Angles (J,) rad and rates (J,) rad/s of the right wing's joints at time t (s)."""
+        angles, rates, _ = driven(self.wing, t)
+        return angles, rates
+
+    def loads(self, t: float, x: npt.ArrayLike) -> Loads:
+        """Aerodynamic loads at time t (s) in state x (n,).
+
+        Raises:
+            StateError: the lifting line cannot be found, or the state is not finite.
+        """
+        state = np.asarray(x, dtype=float)
+        if not np.isfinite(state).all():
+            raise StateError(f"loads asked for at t = {t:.6g} s in a state that is not finite.")
+        angles, rates = self.joint_motion(t, state)
+        shape = wing_shape(self.wing, angles, rates, *self._discretisation)
+        if not shape.converged:
+            raise lifting_line_lost(self.bird, t, angles)
+        elements = place_elements(shape, self.wing.root)
+        found = element_loads(elements, self.bird.air.density, *state[:3])
+        torques = joint_torques(
+            self.wing,
+            joint_chain(self.wing, angles),
+            elements.position,
+            found.force,
+            shape.beyond,
+        )
+        return assemble_loads(elements, found, torques)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle as the call that makes the model: compiled tables are made again where needed."""
+        return partial(type(self), self.bird, **self._options()), ()
+
+    def _options(self) -> dict[str, Any]:
+        return {}
+
+
+def lifting_line_lost(bird: Bird, t: float, angles: FloatArray) -> StateError:
+    """Say at which joint angles the lifting line could not be found."""
+    listed = ", ".join(
+        f"{name} {np.degrees(angle):.1f} deg"
+        for name, angle in zip(bird.joint_names, angles, strict=True)
+    )
+    return StateError(
+        f"{bird.name}: no line orthogonal to its chords fits the wing at t = {t:.4f} s ({listed}); "
+        f"the wing is folded too far, or wing.discretisation has too many elements for its rounding."
+    )

@@ -1,0 +1,50 @@
+"""The right wing as plain arrays: what the compiled kernels read of a bird."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from birdmb._typing import BoolArray, FloatArray, IntArray
+from birdmb.topology import BONES, Bird
+
+
+class WingArrays(NamedTuple):
+    """The joint chain, bones and feathers of the right wing (SI, rad; J joints, F feathers)."""
+
+    root: FloatArray  # (3,) shoulder joint from the body's centre of mass, body frame
+    half_thickness: float
+    bone_length: FloatArray  # (3,) humerus, forearm, hand
+    axis: FloatArray  # (J, 3) unit vectors in the parent's frame
+    segment: IntArray  # (J,) the bone that each joint carries
+    twist: BoolArray  # (J,) spread along its bone
+    feather_bone: IntArray  # (F,) from the shoulder outwards
+    feather_position: FloatArray  # (F,) 0 at the bone's root, 1 at its end
+    feather_length: FloatArray  # (F,)
+    feather_rest_angle: FloatArray  # (F,) 0 aft, pi/2 outwards along the bone
+    feather_share: FloatArray  # (F, J) of each joint's angle that the feather follows
+    offset: FloatArray  # (J,) drivers: offset + amplitude sin(2 pi f t + phase)
+    amplitude: FloatArray
+    phase: FloatArray
+    angular_frequency: float
+
+
+def wing_arrays(bird: Bird) -> WingArrays:
+    """Arrays of a bird's right wing, in the order of its joint chain and feather list."""
+    joints, feathers = bird.joints, bird.feathers
+    return WingArrays(
+        root=np.array([bird.wing.root.x, bird.wing.root.y, bird.wing.root.z]),
+        half_thickness=bird.wing.half_thickness,
+        bone_length=np.array([getattr(bird.segments, name).length for name in BONES]),
+        axis=np.array([joint.axis for joint in joints], dtype=float).reshape(-1, 3),
+        segment=np.array([BONES.index(joint.segment) for joint in joints], dtype=np.int64),
+        twist=np.array([joint.twist for joint in joints], dtype=np.bool_),
+        feather_bone=np.array([BONES.index(f.bone) for f in feathers], dtype=np.int64),
+        feather_position=np.array([f.position for f in feathers]),
+        feather_length=np.array([f.length for f in feathers]),
+        feather_rest_angle=np.array([f.rest_angle for f in feathers]),
+        feather_share=np.array([bird.feather_shares(f) for f in feathers]).reshape(-1, len(joints)),
+        offset=np.array([joint.offset for joint in joints]),
+        amplitude=np.array([joint.amplitude for joint in joints]),
+        phase=np.array([joint.phase for joint in joints]),
+        angular_frequency=2.0 * np.pi * bird.gait.frequency,
+    )

@@ -1,0 +1,137 @@
+"""Skeleton, feathers and the two edges between which the wing is spanned (MODEL section 4).
+
+Frame: the right wing, body axes (x forward, y right, z down), origin at the shoulder joint. The
+kernels take complex angles as well: with q + i h q' (h tiny) the imaginary part of everything they
+return is h times its exact time derivative (complex step; Squire and Trapp, SIAM Rev. 40, 1998).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from birdmb._typing import Array
+from birdmb.wing.arrays import WingArrays
+from birdmb.wing.rotations import rotate_about
+
+HUMERUS, FOREARM, HAND = 0, 1, 2
+
+
+class Skeleton(NamedTuple):
+    """Bones of the right wing; first axis: humerus, forearm, hand.
+
+    `origin` (3, 3) m: where each bone starts; `tip` (3,) m: end of the hand; `rotation` (3, 3, 3):
+    segment frame to body axes; `root_rotation`: the same without the bone's own twist joints.
+    """
+
+    origin: Array
+    tip: Array
+    rotation: Array
+    root_rotation: Array
+
+
+@njit(cache=True)
+def skeleton(wing: WingArrays, angles: Array) -> Skeleton:
+    """Place the bones for joint `angles` (J,) rad, real or complex."""
+    origin = np.zeros((4, 3), angles.dtype)
+    rotation = np.zeros((3, 3, 3), angles.dtype)
+    root_rotation = np.zeros((3, 3, 3), angles.dtype)
+    R = np.eye(3).astype(angles.dtype)
+    joint = 0
+    for bone in range(3):
+        untwisted = R
+        while joint < wing.axis.shape[0] and wing.segment[joint] == bone:
+            R = rotate_about(R, wing.axis[joint], angles[joint])
+            if not wing.twist[joint]:
+                untwisted = rotate_about(untwisted, wing.axis[joint], angles[joint])
+            joint += 1
+        rotation[bone] = R
+        root_rotation[bone] = untwisted
+        origin[bone + 1] = origin[bone] + wing.bone_length[bone] * R[:, 1]
+    return Skeleton(origin[:3], origin[3], rotation, root_rotation)
+
+
+@njit(cache=True)
+def _feather_root_aft(wing: WingArrays, bones: Skeleton, angles: Array, feather: int) -> Array:
+    """Unit aft direction of the bones where a feather is rooted: at a joint, the two bones' mean."""
+    bone = wing.feather_bone[feather]
+    position = wing.feather_position[feather]
+    if position == 0.0:
+        R = bones.root_rotation[bone]
+    elif position == 1.0:
+        R = bones.rotation[bone]
+    else:
+        R = bones.root_rotation[bone]
+        for j in range(angles.size):
+            if wing.segment[j] == bone and wing.twist[j]:
+                R = rotate_about(R, wing.axis[j], position * angles[j])
+    aft = -R[:, 0]
+    if position == 1.0 and bone < HAND:
+        aft = 0.5 * (aft - bones.root_rotation[bone + 1][:, 0])
+    elif position == 0.0 and bone > HUMERUS:
+        aft = 0.5 * (aft - bones.rotation[bone - 1][:, 0])
+    return aft
+
+
+@njit(cache=True)
+def trailing_edge(wing: WingArrays, bones: Skeleton, angles: Array) -> Array:
+    """Vertices (F, 3) of the trailing edge: the tips of the feathers, from shoulder to wing tip."""
+    n = wing.feather_length.size
+    vertices = np.empty((n, 3), angles.dtype)
+    for i in range(n):
+        bone = wing.feather_bone[i]
+        R = np.eye(3).astype(angles.dtype)
+        for j in range(angles.size):
+            share = wing.feather_share[i, j]
+            if share != 0.0:
+                R = rotate_about(R, wing.axis[j], share * angles[j])
+        # The rest angle turns from straight aft (0) to outwards along the bone (90 deg).
+        direction = (
+            -np.cos(wing.feather_rest_angle[i]) * R[:, 0]
+            + np.sin(wing.feather_rest_angle[i]) * R[:, 1]
+        )
+        root = (
+            bones.origin[bone]
+            + wing.feather_position[i] * wing.bone_length[bone] * bones.rotation[bone][:, 1]
+            + wing.half_thickness * _feather_root_aft(wing, bones, angles, i)
+        )
+        vertices[i] = root + wing.feather_length[i] * direction
+    return vertices
+
+
+@njit(cache=True)
+def leading_edge(wing: WingArrays, bones: Skeleton, tip: Array) -> Array:
+    """Vertices (5, 3) of the leading edge: shoulder, abreast of the elbow, wrist, hand tip, `tip`.
+
+    From the shoulder the edge runs straight to the wrist (the skin in front of the elbow); its own
+    forward direction is square to that line and to the humerus' up axis.
+    """
+    wrist = bones.origin[HAND]
+    arm = np.sqrt(wrist[0] * wrist[0] + wrist[1] * wrist[1] + wrist[2] * wrist[2])
+    out = wrist / arm
+    up = -bones.rotation[HUMERUS][:, 2]
+    forward = np.array(
+        [
+            up[1] * out[2] - up[2] * out[1],
+            up[2] * out[0] - up[0] * out[2],
+            up[0] * out[1] - up[1] * out[0],
+        ]
+    )
+    forward = forward / np.sqrt(forward[0] * forward[0] + forward[1] * forward[1] + forward[2] * forward[2])
+    upper_arm = wing.bone_length[HUMERUS] / (wing.bone_length[HUMERUS] + wing.bone_length[FOREARM])
+    a = wing.half_thickness
+    vertices = np.empty((5, 3), wrist.dtype)
+    vertices[0] = a * forward
+    vertices[1] = upper_arm * wrist + a * forward
+    vertices[2] = wrist + 0.5 * a * (forward + bones.root_rotation[HAND][:, 0])
+    vertices[3] = bones.tip + a * bones.rotation[HAND][:, 0]
+    vertices[4] = tip
+    return vertices
+
+
+@njit(cache=True)
+def wing_edges(wing: WingArrays, angles: Array) -> tuple[Array, Array]:
+    """Vertices of the leading (5, 3) and trailing (F, 3) edge, m, at joint `angles` (J,) rad."""
+    bones = skeleton(wing, angles)
+    trailing = trailing_edge(wing, bones, angles)
+    return leading_edge(wing, bones, trailing[-1]), trailing

@@ -1,0 +1,95 @@
+"""A polyline with its corners rounded: smooth along its length and in its vertices.
+
+The polyline, as a function of its arc length, is convolved with a bump of half-width eps_k around
+corner k. Its tangent then turns from one leg to the next by a smooth step, and the curve leaves the
+legs only within eps_k of the corner. The bump is (1 - x^2)^2, so the result is C3.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from birdmb._typing import Array
+
+
+class RoundedPolyline(NamedTuple):
+    """n vertices as start, first tangent and n - 2 turns; the parameter runs from 0 to 1."""
+
+    start: Array  # (3,) m
+    tangent: Array  # (3,) m, derivative by the parameter on the first leg
+    turn: Array  # (n - 2, 3) m, change of that derivative at each corner
+    corner: Array  # (n - 2,) parameter of each corner
+    width: Array  # (n - 2,) half-width of its rounding
+
+
+@njit(cache=True)
+def rounded_polyline(vertices: Array, rounding: float) -> RoundedPolyline:
+    """Round the polyline through `vertices` (n, 3), each corner over `rounding` a b/(a + b).
+
+    a and b are the lengths of the legs that meet there: for `rounding` up to 1 no rounding reaches
+    the end of a leg.
+    """
+    n = vertices.shape[0]
+    legs = vertices[1:] - vertices[:-1]
+    length = np.empty(n - 1, vertices.dtype)
+    for i in range(n - 1):
+        length[i] = np.sqrt(legs[i, 0] * legs[i, 0] + legs[i, 1] * legs[i, 1] + legs[i, 2] * legs[i, 2])
+    total = length.sum()
+    corner = np.empty(n - 2, vertices.dtype)
+    width = np.empty(n - 2, vertices.dtype)
+    turn = np.empty((n - 2, 3), vertices.dtype)
+    reached = 0.0 * total
+    for k in range(n - 2):
+        reached = reached + length[k]
+        corner[k] = reached / total
+        width[k] = rounding * length[k] * length[k + 1] / ((length[k] + length[k + 1]) * total)
+        turn[k] = (legs[k + 1] / length[k + 1] - legs[k] / length[k]) * total
+    return RoundedPolyline(vertices[0].copy(), legs[0] / length[0] * total, turn, corner, width)
+
+
+@njit(cache=True)
+def smooth_step(x: complex) -> complex:
+    """From 0 at x <= -1 to 1 at x >= 1, with two continuous derivatives.
+
+    Powers are products: a complex power goes through a logarithm, whose round-off would drown the
+    tiny imaginary part of a complex step.
+    """
+    if x.real <= -1.0:
+        return 0.0 * x
+    if x.real >= 1.0:
+        return 0.0 * x + 1.0
+    square = x * x
+    return 0.5 + 15.0 / 16.0 * x * (1.0 - square * (2.0 / 3.0 - square / 5.0))
+
+
+@njit(cache=True)
+def _smooth_ramp(x: complex) -> complex:
+    """Integral of `smooth_step`: 0 before x = -1, x after x = 1."""
+    if x.real <= -1.0:
+        return 0.0 * x
+    if x.real >= 1.0:
+        return x
+    square = x * x
+    bulge = square * (0.5 - square * (1.0 / 6.0 - square / 30.0))
+    return 5.0 / 32.0 + 0.5 * x + 15.0 / 16.0 * bulge
+
+
+@njit(cache=True)
+def point(line: RoundedPolyline, s: complex, out: Array) -> None:
+    """Write the point (3,) m at parameter s; before 0 and after 1 the end legs go straight on."""
+    out[:] = line.start + s * line.tangent
+    for k in range(line.corner.size):
+        ramp = line.width[k] * _smooth_ramp((s - line.corner[k]) / line.width[k])
+        for i in range(3):
+            out[i] += line.turn[k, i] * ramp
+
+
+@njit(cache=True)
+def tangent(line: RoundedPolyline, s: complex, out: Array) -> None:
+    """Write the derivative (3,) m of the point by the parameter s."""
+    out[:] = line.tangent
+    for k in range(line.corner.size):
+        step = smooth_step((s - line.corner[k]) / line.width[k])
+        for i in range(3):
+            out[i] += line.turn[k, i] * step

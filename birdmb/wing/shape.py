@@ -1,0 +1,156 @@
+"""The wing as the aerodynamics sees it: a lifting line with chords, and how fast it moves.
+
+Stations alternate between control points (even, the first at the shoulder) and nodes (odd, the last
+at the wing tip), so N elements take 2 N stations; see `birdmb.aerodynamics.elements` for the gap
+over the body.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from birdmb._typing import ComplexArray, FloatArray
+from birdmb.wing.arrays import WingArrays
+from birdmb.wing.edges import wing_edges
+from birdmb.wing.line import PairedEdges, orthogonal_line
+from birdmb.wing.one_step import one_step_line
+from birdmb.wing.rounded import smooth_step
+
+# Small enough for its square to vanish beside 1, large enough to stay clear of denormal numbers.
+COMPLEX_STEP = 1e-30
+
+
+class WingShape(NamedTuple):
+    """Right wing, N elements; axes as the kernel that made it says, origin at the shoulder joint."""
+
+    line: FloatArray  # (2 N, 3) m, quarter-chord points: control, node, control, ... node at tip
+    velocity: FloatArray  # (N, 3) m/s of the control points
+    chord_direction: FloatArray  # (N, 3) unit, towards the trailing edge
+    normal: FloatArray  # (N, 3) up
+    span_direction: FloatArray  # (N, 3) outwards
+    chord: FloatArray  # (N,) m
+    beyond: FloatArray  # (N, 2) fraction of the element's load carried beyond the elbow, the wrist
+    converged: bool  # the lifting line was found to its tolerance
+
+
+@njit(cache=True)
+def _length(v: FloatArray) -> float:
+    return np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+
+
+@njit(cache=True)
+def _cross(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
+    out[0] = a[1] * b[2] - a[2] * b[1]
+    out[1] = a[2] * b[0] - a[0] * b[2]
+    out[2] = a[0] * b[1] - a[1] * b[0]
+
+
+@njit(cache=True)
+def _along(line: FloatArray, j: int) -> FloatArray:
+    """Direction of the line at station j: central differences, one-sided at the shoulder.
+
+    Stations crowd at the shoulder like j^2, so that the one-sided difference errs by no more.
+    """
+    v = line[j + 1] - line[max(j - 1, 0)]
+    return v / _length(v)
+
+
+@njit(cache=True)
+def _carried_beyond(leading: FloatArray, edge: FloatArray, rounding: float) -> FloatArray:
+    """Fractions (N, 2) of each element's load that the bones beyond elbow and wrist carry.
+
+    An element belongs to the bone abreast of its leading-edge point; around the corners the share
+    passes over smoothly, for loads on a bone must not jump in time.
+    """
+    legs = np.empty(edge.shape[0] - 1)
+    for i in range(legs.size):
+        legs[i] = _length(edge[i + 1] - edge[i])
+    n = leading.shape[0] // 2
+    beyond = np.empty((n, 2))
+    reached = 0.0
+    for j in range(2 * n):
+        if j > 0:
+            reached += _length(leading[j] - leading[j - 1])
+        if j % 2 == 0:
+            corner = 0.0
+            for k in range(2):
+                corner += legs[k]
+                width = rounding * legs[k] * legs[k + 1] / (legs[k] + legs[k + 1])
+                beyond[j // 2, k] = smooth_step((reached - corner) / width)
+    return beyond
+
+
+def wing_shape(
+    wing: WingArrays,
+    angles: FloatArray,
+    rates: FloatArray,
+    elements: int,
+    rounding: float,
+    published: bool,
+) -> WingShape:
+    """Shape and velocities of the right wing for joint `angles` (J,) rad and `rates` (J,) rad/s.
+
+    Body axes; velocities relative to the body. `published` takes the reference program's line
+    instead of the orthogonal one.
+    """
+    leading, trailing = wing_edges(wing, angles + 1j * COMPLEX_STEP * rates)
+    if published:
+        pairs, guide = one_step_line(leading, trailing, 2 * elements)
+    else:
+        pairs = orthogonal_line(leading, trailing, 2 * elements, rounding)
+        guide = 0.75 * pairs.leading + 0.25 * pairs.trailing
+    return _assemble(pairs, guide, leading, rounding, published)
+
+
+@njit(cache=True)
+def _assemble(
+    pairs: PairedEdges, guide: ComplexArray, edge: ComplexArray, rounding: float, published: bool
+) -> WingShape:
+    n = pairs.leading.shape[0] // 2
+    along = guide.real.copy()
+    line = 0.75 * pairs.leading + 0.25 * pairs.trailing
+    chord = np.empty(n)
+    chord_direction = np.empty((n, 3))
+    normal = np.empty((n, 3))
+    span = np.empty((n, 3))
+    for e in range(n):
+        c = (pairs.trailing[2 * e] - pairs.leading[2 * e]).real
+        chord[e] = _length(c)
+        chord_direction[e] = c / chord[e]
+        _cross(chord_direction[e], _along(along, 2 * e), normal[e])
+        if not published:
+            normal[e] /= _length(normal[e])
+        _cross(normal[e], chord_direction[e], span[e])
+    beyond = _carried_beyond(pairs.leading.real.copy(), edge.real.copy(), rounding)
+    velocity = line[0::2].imag / COMPLEX_STEP
+    return WingShape(
+        line.real.copy(), velocity, chord_direction, normal, span, chord, beyond, pairs.converged
+    )
+
+
+@njit(cache=True)
+def turned(shape: WingShape, R: FloatArray, spin: FloatArray) -> WingShape:
+    """The shape seen from axes in which its own axes are `R` (3, 3) and turn at `spin` (3,) rad/s.
+
+    `spin` is given in the new axes and acts about the shoulder.
+    """
+    line = shape.line @ R.T
+    velocity = shape.velocity @ R.T
+    for e in range(velocity.shape[0]):
+        p = line[2 * e]
+        velocity[e, 0] += spin[1] * p[2] - spin[2] * p[1]
+        velocity[e, 1] += spin[2] * p[0] - spin[0] * p[2]
+        velocity[e, 2] += spin[0] * p[1] - spin[1] * p[0]
+    return WingShape(
+        line,
+        velocity,
+        shape.chord_direction @ R.T,
+        shape.normal @ R.T,
+        shape.span_direction @ R.T,
+        shape.chord,
+        shape.beyond,
+        shape.converged,
+    )
+
+
