@@ -1,0 +1,1 @@
+"""Quasi-steady lifting-line loads on the moving wing (compiled kernels)."""

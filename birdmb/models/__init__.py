@@ -1,0 +1,18 @@
+"""Models of a bird in flight: each turns a bird into a flow of named states."""
+
+from birdmb.models.flight import Flight
+from birdmb.models.flight_cycle import Beat, FlightCycle
+from birdmb.models.loads import Loads
+from birdmb.models.multibody import MultibodyModel
+from birdmb.models.rigid import RigidModel
+from birdmb.models.wing_model import WingModel
+
+__all__ = [
+    "Beat",
+    "Flight",
+    "FlightCycle",
+    "Loads",
+    "MultibodyModel",
+    "RigidModel",
+    "WingModel",
+]

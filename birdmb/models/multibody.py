@@ -1,7 +1,6 @@
 """The multibody bird in Exudyn, its joints prescribed or compliant (MODEL section 8)."""
 
 from functools import cached_property, lru_cache
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -11,19 +10,20 @@ from birdmb.aerodynamics.prescribed import driven
 from birdmb.errors import StateError
 from birdmb.models.exudyn_tree import BODY_COORDINATES, ExudynBird
 from birdmb.models.flight import Flight
+from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.multibody_kernel import body_velocity, wing_forces
 from birdmb.models.rigid import RigidModel
 from birdmb.models.wing_model import (
     BODY_SCALE,
     BODY_STATES,
     BODY_UNITS,
+    STEPS_PER_BEAT,
     WingModel,
     lifting_line_lost,
 )
 from birdmb.topology import Bird
 from birdmb.wing.shape import WingShape, wing_shape
 
-STEPS_PER_BEAT = 50
 _SHAPES_KEPT = 8192
 _JOINT_SCALE = (0.5, 10.0)  # rad, rad/s
 _BEATS_TO_SETTLE = 6
@@ -38,15 +38,12 @@ class MultibodyModel(WingModel):
 
     Integrated by Exudyn's explicit RK67 (order 6) with fixed steps, for shooting needs a flow that
     is smooth in its start.
-
-    Args:
-        bird: the bird.
-        steps_per_beat: integration steps per wingbeat.
     """
 
+    limit_cycle_type = FlightCycle
+
     def __init__(self, bird: Bird, *, steps_per_beat: int = STEPS_PER_BEAT) -> None:
-        super().__init__(bird)
-        self.steps_per_beat = steps_per_beat
+        super().__init__(bird, steps_per_beat=steps_per_beat)
         names = [joint.name for joint in bird.compliant_joints]
         self.state_names = BODY_STATES + tuple(n for j in names for n in (j, f"{j}.rate"))
         self.state_units = BODY_UNITS + ("rad", "rad/s") * len(names)
@@ -56,8 +53,10 @@ class MultibodyModel(WingModel):
         self._turning = self._joints_that_turn_the_wing_as_a_whole()
         self._shape = lru_cache(maxsize=_SHAPES_KEPT)(self._shape_at)
 
-    def _options(self) -> dict[str, Any]:
-        return {"steps_per_beat": self.steps_per_beat}
+    @property
+    def mass(self) -> float:
+        """Mass of body and both wings, kg."""
+        return self.bird.total_mass
 
     @property
     def state_scale(self) -> FloatArray:
@@ -124,10 +123,16 @@ class MultibodyModel(WingModel):
         forces = np.where(free, 0.0, mass @ a + left)
         return a, forces
 
-    def spring_torques(self, t: float, x: npt.ArrayLike) -> FloatArray:
-        """Torques (J,) N m of springs and dampers on the joints of one wing; 0 where prescribed."""
-        angles, rates = self.joint_motion(t, np.asarray(x, dtype=float))
-        return self._spring_torques(t, angles, rates)
+    def actuator_torques(self, t: float, x: npt.ArrayLike) -> FloatArray:
+        """Torques (J,) N m that move the joints of one wing, at t (s) in state x (n,).
+
+        Of the actuators that hold prescribed joints to their drivers, inertia included; of spring
+        and damper where a joint is compliant.
+        """
+        state = np.asarray(x, dtype=float)
+        _, forces = self.accelerations(t, state)
+        right = forces[BODY_COORDINATES : BODY_COORDINATES + self._compliant.size]
+        return right + self._spring_torques(t, *self.joint_motion(t, state))
 
     def initial_guess(self) -> FloatArray:
         """State (n,) at t = 0: the rigid bird's, with the compliant joints settled about it.
@@ -157,9 +162,6 @@ class MultibodyModel(WingModel):
     @cached_property
     def _exudyn(self) -> ExudynBird:
         return ExudynBird(self.bird, self._forces, self._prescribed, self._driver_accelerations)
-
-    def _steps(self, t0: float, t1: float) -> int:
-        return max(1, round(self.steps_per_beat * (t1 - t0) / self.bird.period))
 
     def _coordinates(self, t: float, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Coordinates and velocities (n,) of the tree, with X = Z = 0, of state x at time t."""

@@ -1,7 +1,6 @@
 """The rigid bird: four states, massless wings that follow their drivers (MODEL section 7)."""
 
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -10,18 +9,18 @@ from birdmb._typing import FloatArray
 from birdmb.aerodynamics.prescribed import PrescribedWing, driven, prescribed_wing
 from birdmb.errors import StateError
 from birdmb.models.flight import Flight
+from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.rigid_kernel import integrate_rigid, rigid_rates
 from birdmb.models.trim import mean_trim
 from birdmb.models.wing_model import (
     BODY_SCALE,
     BODY_STATES,
     BODY_UNITS,
+    STEPS_PER_BEAT,
     WingModel,
     lifting_line_lost,
 )
 from birdmb.topology import Bird
-
-STEPS_PER_BEAT = 50
 
 
 class RigidModel(WingModel):
@@ -29,23 +28,16 @@ class RigidModel(WingModel):
 
     Integrated by classical Runge-Kutta steps, with exact variational equations, over a table of
     the wing at every half step.
-
-    Args:
-        bird: the bird.
-        steps_per_beat: Runge-Kutta steps per wingbeat.
     """
 
+    limit_cycle_type = FlightCycle
     state_names = BODY_STATES
     state_units = BODY_UNITS
 
     def __init__(self, bird: Bird, *, steps_per_beat: int = STEPS_PER_BEAT) -> None:
-        super().__init__(bird)
-        self.steps_per_beat = steps_per_beat
+        super().__init__(bird, steps_per_beat=steps_per_beat)
         self._constants = (bird.body.mass, bird.body.inertia_yy, bird.gravity, bird.air.density)
         self._table = lru_cache(maxsize=64)(self._tabulate)
-
-    def _options(self) -> dict[str, Any]:
-        return {"steps_per_beat": self.steps_per_beat}
 
     @property
     def state_scale(self) -> FloatArray:
@@ -86,7 +78,7 @@ class RigidModel(WingModel):
     def _integrate(
         self, x0: npt.ArrayLike, t0: float, t1: float
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        steps = max(1, round(self.steps_per_beat * (t1 - t0) / self.bird.period))
+        steps = self._steps(t0, t1)
         start = np.asarray(x0, dtype=float)
         found = integrate_rigid(
             self._table(t0 % self.bird.period, t1 - t0, steps),

@@ -18,6 +18,7 @@ from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.chain import joint_chain
 from birdmb.wing.shape import wing_shape
 
+STEPS_PER_BEAT = 50
 BODY_STATES = ("u", "w", "q", "theta")
 BODY_UNITS = ("m/s", "m/s", "rad/s", "rad")
 BODY_SCALE = (10.0, 2.0, 1.0, 0.2)
@@ -28,19 +29,36 @@ class WingModel:
 
     The body's states are `u`, `w` (m/s, velocity of the body's centre of mass along the body's x
     and z axes), `q` (rad/s, pitch rate) and `theta` (rad, pitch angle), nose up positive.
+
+    Args:
+        bird: the bird.
+        steps_per_beat: integration steps per wingbeat.
     """
 
-    def __init__(self, bird: Bird) -> None:
+    def __init__(self, bird: Bird, *, steps_per_beat: int = STEPS_PER_BEAT) -> None:
         self.bird = bird
         self.wing = wing_arrays(bird)
         self.period: float | None = bird.period
+        self.steps_per_beat = steps_per_beat
         numbers = bird.wing.resolved_discretisation
         self._discretisation = (numbers.elements, numbers.rounding, numbers.scheme == "one-step")
+
+    @property
+    def mass(self) -> float:
+        """Mass of all that flies, kg."""
+        return self.bird.body.mass
 
     def joint_motion(self, t: float, _x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Angles (J,) rad and rates (J,) rad/s of the right wing's joints at time t (s)."""
         angles, rates, _ = driven(self.wing, t)
         return angles, rates
+
+    def actuator_torques(self, t: float, x: npt.ArrayLike) -> FloatArray:
+        """Torques (J,) N m that move the joints of one wing, at t (s) in state x (n,).
+
+        Of massless wings: those that balance the air.
+        """
+        return -self.loads(t, x).joint_torques
 
     def loads(self, t: float, x: npt.ArrayLike) -> Loads:
         """Aerodynamic loads at time t (s) in state x (n,).
@@ -71,7 +89,10 @@ class WingModel:
         return partial(type(self), self.bird, **self._options()), ()
 
     def _options(self) -> dict[str, Any]:
-        return {}
+        return {"steps_per_beat": self.steps_per_beat}
+
+    def _steps(self, t0: float, t1: float) -> int:
+        return max(1, round(self.steps_per_beat * (t1 - t0) / self.bird.period))
 
 
 def lifting_line_lost(bird: Bird, t: float, angles: FloatArray) -> StateError:

@@ -1,0 +1,252 @@
+"""What a limit cycle says about the flight of a bird: speed, climb, loads, power."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import cast
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from birdmb import figures
+from birdmb._typing import FloatArray
+from birdmb.aerodynamics.prescribed import driven
+from birdmb.models.loads import Loads
+from birdmb.models.wing_model import WingModel
+from birdmb.orbits import LimitCycle
+
+
+@dataclass(frozen=True)
+class Beat:
+    """One wingbeat of a limit cycle at K equidistant times, the first repeated at the end."""
+
+    times: FloatArray
+    """(K,) s."""
+    states: FloatArray
+    """(K, n)."""
+    loads: tuple[Loads, ...]
+    """K entries."""
+    joint_rates: FloatArray
+    """(K, J) rad/s."""
+    actuator_torques: FloatArray
+    """(K, J) N m, that the actuator, or spring and damper, puts on each joint of one wing."""
+    driver_rates: FloatArray
+    """(K, J) rad/s, of the joints' drivers."""
+
+    @cached_property
+    def force(self) -> FloatArray:
+        """Resultant of the air (K, 3) N, body axes."""
+        return np.array([loads.force for loads in self.loads])
+
+    @cached_property
+    def moment(self) -> FloatArray:
+        """Moment of the air about G (K, 3) N m, body axes."""
+        return np.array([loads.moment for loads in self.loads])
+
+    @cached_property
+    def wing_power(self) -> FloatArray:
+        """Power (K,) W that the wings' motion against the air takes."""
+        return np.array([loads.power for loads in self.loads])
+
+    @cached_property
+    def joint_power(self) -> FloatArray:
+        """Power (K, J) W into each pair of joints, left and right together."""
+        return 2.0 * self.actuator_torques * self.joint_rates
+
+    @cached_property
+    def air_power(self) -> FloatArray:
+        """Power (K,) W of the air on the whole bird: on the body and about the joints."""
+        u, w, q = self.states[:, 0], self.states[:, 1], self.states[:, 2]
+        on_body = self.force[:, 0] * u + self.force[:, 2] * w + self.moment[:, 1] * q
+        about_joints = np.array([loads.joint_torques for loads in self.loads]) * self.joint_rates
+        return np.asarray(on_body + 2.0 * about_joints.sum(axis=1))
+
+    @cached_property
+    def velocity(self) -> FloatArray:
+        """Forward speed and climb rate (K, 2) m/s of the body in the world."""
+        u, w, theta = self.states[:, 0], self.states[:, 1], self.states[:, 3]
+        c, s = np.cos(theta), np.sin(theta)
+        return np.column_stack([u * c + w * s, u * s - w * c])
+
+
+def _mean(values: FloatArray) -> FloatArray:
+    """Mean over a beat of values (K, ...), by the trapezoidal rule, spectrally accurate here."""
+    return np.asarray(values[:-1].mean(axis=0))
+
+
+@dataclass(frozen=True)
+class FlightCycle(LimitCycle):
+    """Limit cycle of a bird: besides the orbit, the means over a beat that its flight is judged by.
+
+    Powers are means over a beat, in W, of both wings together.
+    """
+
+    @property
+    def _bird_model(self) -> WingModel:
+        return cast(WingModel, self.model)
+
+    @cached_property
+    def beat(self) -> Beat:
+        """The beat, at the steps of the model's integration."""
+        model = self._bird_model
+        times = self.start_time + np.linspace(0.0, self.period, model.steps_per_beat + 1)
+        states = self.trajectory(times).states
+        at = list(zip(times, states, strict=True))
+        return Beat(
+            times=times,
+            states=states,
+            loads=tuple(model.loads(t, x) for t, x in at),
+            joint_rates=np.array([model.joint_motion(t, x)[1] for t, x in at]),
+            actuator_torques=np.array([model.actuator_torques(t, x) for t, x in at]),
+            driver_rates=np.array([driven(model.wing, t)[1] for t in times]),
+        )
+
+    @cached_property
+    def mean_velocity(self) -> FloatArray:
+        """Mean forward speed and climb rate (2,) m/s in the world."""
+        return _mean(self.beat.velocity)
+
+    @property
+    def mean_speed(self) -> float:
+        """Modulus of the mean velocity, m/s: the way made good in a beat over its period."""
+        return float(np.hypot(*self.mean_velocity))
+
+    @property
+    def mean_climb_rate(self) -> float:
+        """Mean climb rate, m/s, upwards positive."""
+        return float(self.mean_velocity[1])
+
+    @property
+    def path_angle(self) -> float:
+        """Angle of the mean flight path above the horizon, rad."""
+        return float(np.arctan2(self.mean_velocity[1], self.mean_velocity[0]))
+
+    @property
+    def power(self) -> float:
+        """Power that moving the wings against the air takes: minus the sum of force . velocity.
+
+        With the velocity of the lifting line relative to the body (thesis, chapter 6: P_act).
+        """
+        return float(_mean(self.beat.wing_power))
+
+    @property
+    def potential_power(self) -> float:
+        """Power drawn from sinking: minus weight times climb rate (thesis, chapter 8: P_g)."""
+        model = self._bird_model
+        return -model.mass * model.bird.gravity * self.mean_climb_rate
+
+    @property
+    def corrected_power(self) -> float:
+        """Power that the flight would take if it were level: `power` + `potential_power`."""
+        return self.power + self.potential_power
+
+    @property
+    def cost_of_transport(self) -> float:
+        """`power` per weight and speed, dimensionless."""
+        model = self._bird_model
+        return self.power / (model.mass * model.bird.gravity * self.mean_speed)
+
+    @property
+    def joint_powers(self) -> dict[str, float]:
+        """Mean of joint torque times joint rate, W, by joint.
+
+        The torque is that of the actuator where the joint is prescribed, of spring and damper where
+        it is compliant.
+        """
+        return self._by_joint(self.beat.joint_power)
+
+    @property
+    def driver_powers(self) -> dict[str, float]:
+        """Mean power of the drivers, W, by joint: joint torque times the driver's rate.
+
+        Of a compliant joint it exceeds the joint's power by what the damper dissipates.
+        """
+        return self._by_joint(2.0 * self.beat.actuator_torques * self.beat.driver_rates)
+
+    @property
+    def feather_power(self) -> float:
+        """Part of `power` that no joint delivers, W.
+
+        The loads act on the bones, but the lifting line also moves relative to them, with the
+        feathers that fan out; `power` counts that motion, torque times rate does not.
+        """
+        torques = np.array([loads.joint_torques for loads in self.beat.loads])
+        by_joints = -2.0 * (torques * self.beat.joint_rates).sum(axis=1)
+        return float(_mean(self.beat.wing_power - by_joints))
+
+    @property
+    def energy_imbalance(self) -> float:
+        """What a beat leaves over of the energy, relative to the work done in it; 0 if exact.
+
+        Joints, air and gravity together must leave the kinetic energy as it was.
+        """
+        model = self._bird_model
+        joints = self.beat.joint_power.sum(axis=1)
+        gravity = -model.mass * model.bird.gravity * self.beat.velocity[:, 1]
+        exchanged = np.abs(joints) + np.abs(self.beat.air_power) + np.abs(gravity)
+        left_over = _mean(joints + self.beat.air_power + gravity)
+        return float(np.abs(left_over) / _mean(exchanged))
+
+    def _by_joint(self, values: FloatArray) -> dict[str, float]:
+        names = self._bird_model.bird.joint_names
+        return {n: float(v) for n, v in zip(names, _mean(values), strict=True)}
+
+    def to_xarray(self) -> xr.Dataset:
+        """The orbit as `LimitCycle.to_xarray` gives it, with loads and power over the beat."""
+        beat = self.beat
+        axes, joints = ["x", "y", "z"], list(self._bird_model.bird.joint_names)
+        vectors = {
+            "position": ("m", "control points of the right wing from G"),
+            "element_force": ("N", "force on each element of the right wing"),
+        }
+        numbers = {
+            "circulation": ("m2/s", "bound circulation"),
+            "angle_of_attack": ("rad", "geometric angle of attack"),
+            "speed": ("m/s", "wind in the section's plane"),
+            "chord": ("m", "chord"),
+            "width": ("m", "width of the element"),
+        }
+        of_wing = {
+            name: (("beat_time", "element", "axis"), self._stacked(name), _attrs(*about))
+            for name, about in vectors.items()
+        } | {
+            name: (("beat_time", "element"), self._stacked(name), _attrs(*about))
+            for name, about in numbers.items()
+        }
+        flight = xr.Dataset(
+            {
+                "force": (("beat_time", "axis"), beat.force, _attrs("N", "air on the bird")),
+                "moment": (("beat_time", "axis"), beat.moment, _attrs("N m", "air, about G")),
+                "wing_power": ("beat_time", beat.wing_power, _attrs("W", "P_act")),
+                "joint_power": (
+                    ("beat_time", "joint"),
+                    beat.joint_power,
+                    _attrs("W", "joint torque times joint rate, both wings"),
+                ),
+                **of_wing,
+            },
+            coords={"beat_time": ("beat_time", beat.times, {"units": "s"}), "axis": axes}
+            | {"joint": joints},
+            attrs={
+                "bird": self._bird_model.bird.name,
+                "fingerprint": self._bird_model.bird.fingerprint(),
+                "frame": "body axes: x forward, y right, z down, from the body's centre of mass",
+                "mean_speed": self.mean_speed,
+                "mean_climb_rate": self.mean_climb_rate,
+                "power": self.power,
+                "potential_power": self.potential_power,
+                "cost_of_transport": self.cost_of_transport,
+            },
+        )
+        return xr.merge([super().to_xarray(), flight], combine_attrs="no_conflicts")
+
+    def _stacked(self, name: str) -> FloatArray:
+        return np.array([getattr(loads, name) for loads in self.beat.loads])
+
+    def plot(self) -> Figure:
+        """Draw the states over a beat, multipliers, loads and power, and the wing at four phases."""
+        return figures.overview(self)
+
+
+def _attrs(units: str, about: str) -> dict[str, str]:
+    return {"units": units, "long_name": about}
