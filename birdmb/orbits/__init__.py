@@ -1,8 +1,12 @@
 """Periodic orbits and their Floquet multipliers, for any system with a flow."""
 
+from birdmb.orbits.boundary import BoundaryPoint, StabilityBoundary, stability_boundary
+from birdmb.orbits.branch import Bifurcation, Branch, BranchPoint, load_branch
+from birdmb.orbits.continuation import continue_branch
 from birdmb.orbits.cycle import LimitCycle
 from birdmb.orbits.errors import (
     ArgumentError,
+    BranchStopped,
     ConvergenceError,
     EquilibriumError,
     NotClosedError,
@@ -18,9 +22,15 @@ from birdmb.orbits.problem import Model, VariationalModel
 from birdmb.orbits.response import PerturbedResponse, mode_disturbance, perturbed_response
 from birdmb.orbits.result import FloquetResult
 from birdmb.orbits.search import find_limit_cycle
+from birdmb.orbits.tracer import Steps
 
 __all__ = [
     "ArgumentError",
+    "Bifurcation",
+    "BoundaryPoint",
+    "Branch",
+    "BranchPoint",
+    "BranchStopped",
     "ConvergenceError",
     "EquilibriumError",
     "FloquetResult",
@@ -34,13 +44,18 @@ __all__ = [
     "PerturbedResponse",
     "SingularJacobianError",
     "Stability",
+    "StabilityBoundary",
+    "Steps",
     "Trajectory",
     "VariationalModel",
+    "continue_branch",
     "find_limit_cycle",
     "floquet",
     "largest_lyapunov_exponent",
+    "load_branch",
     "mode_disturbance",
     "periodic_multipliers",
     "perturbed_response",
     "product_multipliers",
+    "stability_boundary",
 ]

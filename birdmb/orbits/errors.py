@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError
@@ -27,6 +27,34 @@ class NotClosedError(OrbitError):
     def __str__(self) -> str:
         """Return the sentence alone."""
         return str(self.args[0])
+
+
+StopReason = Literal[
+    "the step became too small",
+    "the branch left the domain of the model",
+    "the number of points allowed was reached",
+    "the cycles shrank to an equilibrium",
+    "the number of bifurcations asked for was reached",
+]
+
+
+class BranchStopped(OrbitError):  # noqa: N818 - it reports an end, often no error
+    """Why a branch ended before the end of its parameter range; the branch keeps its points.
+
+    Attributes:
+        reason: one of the sentences of `StopReason`.
+        parameter: the parameter of the last good point.
+    """
+
+    def __init__(self, reason: StopReason, parameter: float, detail: str = "") -> None:
+        """Say why and where."""
+        super().__init__(reason, parameter, detail)
+        self.reason, self.parameter, self.detail = reason, parameter, detail
+
+    def __str__(self) -> str:
+        """Return the sentence."""
+        end = f": {self.detail}" if self.detail else "."
+        return f"The branch stopped at parameter {self.parameter:.8g}: {self.reason}{end}"
 
 
 class ConvergenceError(OrbitError):

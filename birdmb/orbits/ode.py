@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import cast
 
 import numpy as np
 import numpy.typing as npt
@@ -172,7 +171,7 @@ class OdeModel:
                 rtol=self._rtol,
                 atol=atol,
             )
-        states = cast("FloatArray", solution.y.T)
+        states = np.asarray(solution.y, float).T
         if not solution.success or not np.isfinite(states).all():
             reached = solution.t[-1] if len(solution.t) else t0
             raise StateError(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,7 +13,13 @@ from matplotlib.patches import Circle
 from birdmb._typing import ComplexArray, FloatArray
 from birdmb.orbits.ode import Trajectory
 
+if TYPE_CHECKING:
+    from birdmb.orbits.boundary import StabilityBoundary
+    from birdmb.orbits.branch import Branch
+
 STABLE_COLOUR, UNSTABLE_COLOUR = "tab:blue", "tab:red"
+VERDICT_COLOURS = {"stable": STABLE_COLOUR, "unstable": UNSTABLE_COLOUR, "undecided": "0.5"}
+MARKERS = {"fold": "o", "period doubling": "s", "Neimark-Sacker": "D", "branch point": "x"}
 
 
 def plot_cycle(
@@ -62,4 +69,45 @@ def plot_response(
         axes.set_ylabel(state_names[i])
     rows[0].legend(loc="upper right")
     rows[-1].set_xlabel("time (s)")
+    return figure
+
+
+def plot_branch(branch: Branch, quantity: str) -> Figure:
+    """Draw a quantity and the multipliers' moduli over the parameter of a branch."""
+    figure = Figure(figsize=(8, 7), layout="constrained")
+    top, bottom = figure.subplots(2, 1, sharex=True)
+    parameters, values = branch.parameters, branch.values(quantity)
+    for i in range(len(parameters) - 1):
+        ends = slice(i, i + 2)
+        colour = VERDICT_COLOURS[branch.points[i + 1].stability]
+        top.plot(parameters[ends], values[ends], "-", color=colour)
+    top.scatter(parameters, values, s=8, c=[VERDICT_COLOURS[p.stability] for p in branch.points])
+    moduli = np.array([np.abs(point.multipliers) for point in branch.points])
+    bottom.plot(parameters, moduli, ".-", color="0.3", linewidth=0.8, markersize=3)
+    bottom.axhline(1, color="0.7")
+    for bifurcation in branch.bifurcations:
+        value = branch.value_of(bifurcation.point, quantity)
+        top.plot(bifurcation.parameter, value, MARKERS[bifurcation.kind], color="k")
+        text = f"{bifurcation.kind} {bifurcation.parameter:.5g}"
+        top.annotate(text, (bifurcation.parameter, value), (6, 6), textcoords="offset points")
+        bottom.axvline(bifurcation.parameter, color="0.8", linewidth=0.8)
+    top.set_ylabel(quantity)
+    bottom.set(xlabel=branch.parameter_name, ylabel="|Λ|")
+    return figure
+
+
+def plot_boundary(boundary: StabilityBoundary) -> Figure:
+    """Draw a stability boundary in the plane of its two parameters."""
+    figure = Figure(figsize=(6, 5), layout="constrained")
+    axes = figure.subplots()
+    found = [(p.second, p.bifurcation) for p in boundary.points if p.bifurcation is not None]
+    axes.plot([b.parameter for _, b in found], [second for second, _ in found], color="0.7")
+    for kind, marker in MARKERS.items():
+        second = [value for value, b in found if b.kind == kind]
+        if second:
+            first = [b.parameter for _, b in found if b.kind == kind]
+            axes.plot(first, second, marker, color="k", label=kind)
+    if found:
+        axes.legend()
+    axes.set(xlabel=boundary.first_name, ylabel=boundary.second_name)
     return figure

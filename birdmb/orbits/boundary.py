@@ -1,0 +1,129 @@
+"""The boundary of stability in the plane of two parameters."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import xarray as xr
+from matplotlib.figure import Figure
+
+from birdmb.errors import BirdmbError
+from birdmb.orbits import plots
+from birdmb.orbits.branch import Bifurcation
+from birdmb.orbits.continuation import continue_branch
+from birdmb.orbits.errors import ArgumentError
+from birdmb.orbits.problem import Model
+
+
+@dataclass(frozen=True)
+class BoundaryPoint:
+    """Where the first change of stability lies for one value of the second parameter.
+
+    Attributes:
+        second: value of the second parameter.
+        bifurcation: located on the branch in the first parameter; `None` if none was found.
+        reason: why there is none, else empty.
+    """
+
+    second: float
+    bifurcation: Bifurcation | None
+    reason: str
+
+
+@dataclass(frozen=True)
+class StabilityBoundary:
+    """Stability boundary, one point for each value of the second parameter."""
+
+    first_name: str
+    second_name: str
+    points: tuple[BoundaryPoint, ...]
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return the boundary over the second parameter; NaN where none was found."""
+        found = [point.bifurcation for point in self.points]
+        first = [np.nan if b is None else b.parameter for b in found]
+        error = [np.nan if b is None else b.parameter_error for b in found]
+        kind = np.array(["" if b is None else b.kind for b in found], dtype="U16")
+        reason = np.array([point.reason for point in self.points], dtype=str)
+        dim = "second_parameter"
+        return xr.Dataset(
+            {
+                "first_parameter": (dim, first),
+                "first_parameter_error": (dim, error),
+                "kind": (dim, kind),
+                "reason": (dim, reason),
+            },
+            coords={dim: [point.second for point in self.points]},
+            attrs={"first_name": self.first_name, "second_name": self.second_name},
+        )
+
+    def plot(self) -> Figure:
+        """Draw the boundary in the plane of the two parameters, by kind of bifurcation."""
+        return plots.plot_boundary(self)
+
+
+def stability_boundary(
+    family: Callable[[float, float], Model],
+    first_range: tuple[float, float],
+    second_values: Iterable[float],
+    guess: npt.ArrayLike | None = None,
+    *,
+    first_name: str = "first parameter",
+    second_name: str = "second parameter",
+    period_guess: float | None = None,
+    **options: Any,
+) -> StabilityBoundary:
+    """Locate the first bifurcation along one parameter for each value of another.
+
+    Each value costs a continuation up to its bifurcation; each starts from the orbit at which the
+    one before it started, so order the values.
+
+    Args:
+        family: function of the two parameters that returns the model.
+        first_range: range of the first parameter, from the side where the orbits are known.
+        second_values: values of the second parameter.
+        guess: orbit at the start of the range for the first of the values.
+        first_name: label.
+        second_name: label.
+        period_guess: as for `find_limit_cycle`.
+        options: what else `continue_branch` takes.
+
+    Returns:
+        The boundary. A value at which no orbit or no bifurcation was found keeps the reason; the
+        others are not lost for it.
+    """
+    points = []
+    for second in second_values:
+        try:
+            branch = continue_branch(
+                functools.partial(_swapped, family, second),
+                first_range,
+                guess,
+                period_guess=period_guess,
+                max_bifurcations=1,
+                parameter_name=first_name,
+                **options,
+            )
+        except ArgumentError:
+            raise
+        except BirdmbError as error:
+            points.append(BoundaryPoint(second, None, str(error)))
+            continue
+        start = branch.points[0]
+        guess = start.points
+        period_guess = None if period_guess is None else start.period
+        if branch.bifurcations:
+            points.append(BoundaryPoint(second, branch.bifurcations[0], ""))
+        else:
+            reason = "no bifurcation in the range" if branch.stopped is None else branch.stopped
+            points.append(BoundaryPoint(second, None, str(reason)))
+    return StabilityBoundary(first_name, second_name, tuple(points))
+
+
+def _swapped(family: Callable[[float, float], Model], second: float, first: float) -> Model:
+    return family(first, second)

@@ -1,0 +1,133 @@
+"""Following a branch of periodic orbits through its folds."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from concurrent.futures import Executor
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from birdmb.orbits.branch import Bifurcation, Branch, BranchPoint
+from birdmb.orbits.errors import ArgumentError
+from birdmb.orbits.extended import ExtendedEquations, Family
+from birdmb.orbits.search import find_limit_cycle
+from birdmb.orbits.segments import choose_jacobian
+from birdmb.orbits.tracer import Observables, Steps, Tracer
+
+_DEFAULT_STEPS = Steps()
+
+
+def continue_branch(
+    family: Family,
+    parameter_range: tuple[float, float],
+    guess: npt.ArrayLike | None = None,
+    *,
+    parameter_name: str = "parameter",
+    period_guess: float | None = None,
+    segments: int = 1,
+    start_time: float = 0.0,
+    steps: Steps = _DEFAULT_STEPS,
+    max_points: int = 200,
+    max_bifurcations: int | None = None,
+    tolerance: float = 1e-9,
+    jacobian: Literal["auto", "variational", "finite-differences"] = "auto",
+    observables: Observables | None = None,
+    resume: Branch | None = None,
+    executor: Executor | None = None,
+    callback: Callable[[BranchPoint | Bifurcation], None] | None = None,
+) -> Branch:
+    """Follow periodic orbits in one parameter by pseudo-arclength continuation.
+
+    Predictor along the tangent, corrector by multiple shooting on the plane across it (Keller 1977;
+    Kuznetsov 2004, chapter 10), steps adapted to the corrector's iterations and to the turn of the
+    tangent. Folds are passed. Sign changes of test functions between points are located by Brent's
+    method along the arclength.
+
+    Args:
+        family: function of the parameter that returns the model. It may raise a `BirdmbError` where
+            there is none.
+        parameter_range: from where to where. A branch that turns may also end where it began.
+        guess: orbit at the start of the range, as for `find_limit_cycle`.
+        parameter_name: name for labels.
+        period_guess: as for `find_limit_cycle`.
+        segments: number M of shooting segments.
+        start_time: time of the first state, in s.
+        steps: step sizes.
+        max_points: number of points allowed, those resumed from included.
+        max_bifurcations: end at the first point after so many bifurcations; `None`: go on.
+        tolerance: closure error accepted, in units of the state scale.
+        jacobian: as for `find_limit_cycle`.
+        observables: functions of the `LimitCycle`, by name, whose values are kept at every point.
+        resume: a branch of the same family to go on with from its last point; `guess`,
+            `period_guess`, `segments` and `start_time` are then its own.
+        executor: spreads flows over workers; results do not depend on it.
+        callback: called with every point and every bifurcation as it is found.
+
+    Returns:
+        The branch. If it ended before an end of the range, `stopped` says why; it can be raised.
+
+    Raises:
+        ConvergenceError: no orbit at the start of the range (other errors of `find_limit_cycle`
+            likewise). Later failures end the branch instead.
+    """
+    first, last = map(float, parameter_range)
+    if first == last:
+        raise ArgumentError("parameter_range must have two different ends.")
+    family = functools.lru_cache(maxsize=8)(family)
+    begin = first if resume is None else resume.points[-1].parameter
+    model = family(begin)
+    if resume is None:
+        cycle = find_limit_cycle(
+            model,
+            guess,
+            period_guess=period_guess,
+            segments=segments,
+            start_time=start_time,
+            tolerance=tolerance,
+            jacobian=jacobian,
+            executor=executor,
+        )
+        scale, orbit, period = cycle.state_scale, cycle.points, cycle.period
+    else:
+        start_time, scale = resume.start_time, resume.state_scale
+        orbit, period = resume.points[-1].points, resume.points[-1].period
+    size = orbit.size + (model.period is None) + 1
+    ahead = np.append(np.zeros(size - 1), np.sign(last - first))
+    equations = ExtendedEquations(
+        family=family,
+        parameter_range=(min(first, last), max(first, last)),
+        scale=scale,
+        start=start_time,
+        period_unit=period,
+        jacobian_method=choose_jacobian(model, jacobian),
+        executor=executor,
+        anchor=np.zeros(size),
+        direction=ahead,
+    )
+    tracer = Tracer(equations, steps, tolerance, observables or {})
+    u = tracer.unknowns(begin, orbit, period)
+    point = tracer.point_at(u, ahead if resume is None else resume.points[-1].tangent)
+    points = [] if resume is None else list(resume.points[:-1])
+    points.append(point)
+    bifurcations = [] if resume is None else list(resume.bifurcations)
+    if callback is not None and resume is None:
+        callback(point)
+    for item in tracer.follow(point, max_points, max_bifurcations, len(points)):
+        if isinstance(item, BranchPoint):
+            points.append(item)
+        else:
+            bifurcations.append(item)
+        if callback is not None:
+            callback(item)
+    return Branch(
+        parameter_name=parameter_name,
+        state_names=tuple(model.state_names),
+        state_scale=scale,
+        start_time=start_time,
+        points=tuple(points),
+        bifurcations=tuple(bifurcations),
+        stopped=tracer.stopped,
+    )
