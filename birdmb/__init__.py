@@ -1,8 +1,8 @@
 """Limit cycles, Floquet stability and power of flapping birds.
 
-A bird is data (`load_bird`), a model turns it into a flow (`RigidModel`, `MultibodyModel`), an orbit
-is a fixed point of that flow (`find_limit_cycle`), and its multipliers say whether the bird can fly
-hands-off.
+A bird is data (`load_bird`), a model turns it into a flow (`RigidModel`, `MultibodyModel`), an
+orbit is a fixed point of that flow (`find_limit_cycle`), and its multipliers say whether the bird
+can fly hands-off.
 """
 
 from importlib.metadata import version

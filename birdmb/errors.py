@@ -6,7 +6,7 @@ class BirdmbError(Exception):
 
 
 class TopologyError(BirdmbError):
-    """A topology file, a dotted name or a value in it is wrong; the text names file, key and value."""
+    """A topology file, a dotted name or a value is wrong; the text names file, key and value."""
 
 
 class OrbitError(BirdmbError):

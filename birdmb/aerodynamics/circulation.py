@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from birdmb._typing import FloatArray
+from birdmb._typing import Array, FloatArray
 from birdmb.aerodynamics.elements import Elements, circulation_system
 
 
@@ -29,7 +29,7 @@ class ElementLoads(NamedTuple):
 
 @njit(cache=True)
 def _wind(elements: Elements, e: int, u: float, w: float, q: float, out: FloatArray) -> None:
-    """Air velocity (3,) m/s seen by control point e of a body with velocity u, w and pitch rate q."""
+    """Write the air velocity (3,) m/s at control point e of a body that moves at u, w and q."""
     out[0] = -u - q * elements.position[e, 2] - elements.velocity[e, 0]
     out[1] = -elements.velocity[e, 1]
     out[2] = -w + q * elements.position[e, 0] - elements.velocity[e, 2]
@@ -37,7 +37,7 @@ def _wind(elements: Elements, e: int, u: float, w: float, q: float, out: FloatAr
 
 @njit(cache=True)
 def _dot(a: FloatArray, b: FloatArray) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    return float(a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
 
 
 @njit(cache=True)
@@ -63,16 +63,12 @@ def section_flow(
 
 
 @njit(cache=True)
-def element_loads(
-    elements: Elements, density: float, u: float, w: float, q: float
-) -> ElementLoads:
-    """Circulation and force of every element for the body velocity u, w (m/s) and rate q (rad/s)."""
+def element_loads(elements: Elements, density: float, u: float, w: float, q: float) -> ElementLoads:
+    """Circulation and force of every element for body velocity u, w (m/s), pitch rate q (rad/s)."""
     wind, speed, alpha = section_flow(elements, u, w, q)
     bound = np.pi * elements.chord * speed * alpha
-    circulation = np.linalg.solve(circulation_system(elements), bound)
-    return ElementLoads(
-        circulation, alpha, speed, _forces(elements, density, wind, circulation)
-    )
+    circulation: Array = np.linalg.solve(circulation_system(elements), bound)
+    return ElementLoads(circulation, alpha, speed, _forces(elements, density, wind, circulation))
 
 
 @njit(cache=True)

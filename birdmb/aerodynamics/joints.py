@@ -1,4 +1,4 @@
-"""Loads of the wing about its joints (MODEL section 8: each segment carries its elements' loads)."""
+"""Loads of the wing about its joints: each segment carries its elements' loads."""
 
 import numpy as np
 from numba import njit

@@ -42,14 +42,12 @@ def prescribed_wing(
     wing: WingArrays, times: FloatArray, elements: int, rounding: float, published: bool
 ) -> PrescribedWing:
     """Tabulate the wing at `times` (P,) s."""
-    shapes = [
-        wing_shape(wing, *driven(wing, t)[:2], elements, rounding, published) for t in times
-    ]
+    shapes = [wing_shape(wing, *driven(wing, t)[:2], elements, rounding, published) for t in times]
     placed = [place_elements(shape, wing.root) for shape in shapes]
     system = np.stack([circulation_system(elements) for elements in placed])
     return PrescribedWing(
         Elements(*(np.stack(arrays) for arrays in zip(*placed, strict=True))),
-        np.linalg.inv(system),
+        np.asarray(np.linalg.inv(system), dtype=float),
         np.stack([shape.beyond for shape in shapes]),
         np.array([shape.converged for shape in shapes]),
     )

@@ -16,6 +16,7 @@ from exudyn.itemInterface import NodeGenericODE2, ObjectGenericODE2, ObjectKinem
 from scipy.spatial.transform import Rotation
 
 from birdmb._typing import BoolArray, FloatArray
+from birdmb.errors import BirdmbError
 from birdmb.topology import BONES, Bird
 
 BODY_COORDINATES = 3
@@ -120,6 +121,7 @@ class ExudynBird:
         prescribed: BoolArray,
         driver: TimeFunction,
     ) -> None:
+        self._failure: BirdmbError | None = None
         links = bird_links(bird)
         n = self.size = len(links)
         self._container = exu.SystemContainer()
@@ -137,7 +139,13 @@ class ExudynBird:
         def tree_forces(
             _mbs: object, t: float, _item: int, q: Sequence[float], v: Sequence[float]
         ) -> FloatArray:
-            return forces(t, np.array(q), np.array(v))
+            if self._failure is None:
+                try:
+                    return forces(t, np.array(q), np.array(v))
+                except BirdmbError as error:
+                    # Exudyn would rewrap it and print a banner; it is raised again afterwards.
+                    self._failure = error
+            return np.full(n, np.nan)
 
         self.tree = self.mbs.AddObject(
             ObjectKinematicTree(
@@ -174,7 +182,10 @@ class ExudynBird:
     def integrate(
         self, q: FloatArray, v: FloatArray, t0: float, t1: float, steps: int
     ) -> tuple[FloatArray, FloatArray]:
-        """Coordinates and velocities (n,) at t1 after `steps` steps of RK67 (order 6) from t0."""
+        """Coordinates and velocities (n,) at t1 after `steps` steps of RK67 (order 6) from t0.
+
+        Not finite where the motion diverges. Raises what `forces` raised.
+        """
         data = self.mbs.systemData
         initial = exu.ConfigurationType.Initial
         data.SetODE2Coordinates(q, initial)
@@ -184,6 +195,7 @@ class ExudynBird:
         self.mbs.SolveDynamic(
             self._settings, solverType=exu.DynamicSolverType.RK67, storeSolver=False
         )
+        self._raise_failure()
         return np.array(data.GetODE2Coordinates()), np.array(data.GetODE2Coordinates_t())
 
     def mass_and_forces(
@@ -197,7 +209,13 @@ class ExudynBird:
         data.SetTime(t, current)
         mass = self.mbs.ComputeItem(self.tree, exu.ComputeItemType.MassMatrix)
         left = self.mbs.ComputeItem(self.tree, exu.ComputeItemType.ODE2LHS)
+        self._raise_failure()
         return np.array(mass), np.array(left)
+
+    def _raise_failure(self) -> None:
+        failure, self._failure = self._failure, None
+        if failure is not None:
+            raise failure
 
 
 def _quiet_settings() -> exu.SimulationSettings:
@@ -207,5 +225,4 @@ def _quiet_settings() -> exu.SimulationSettings:
     settings.solution.file.write = False
     settings.solution.sensors.active = False
     settings.parallel.numberOfThreads = 1
-    settings.displayComputationTime = False
     return settings

@@ -174,6 +174,15 @@ class FlightCycle(LimitCycle):
         by_joints = -2.0 * (torques * self.beat.joint_rates).sum(axis=1)
         return float(_mean(self.beat.wing_power - by_joints))
 
+    @cached_property
+    def integration_error(self) -> float:
+        """Error of the flow over a beat, in units of the state scale: against twice the steps."""
+        model = self._bird_model
+        finer = type(model)(model.bird, steps_per_beat=2 * model.steps_per_beat)
+        end = self.start_time + self.period
+        coarse, fine = (m.flow(self.x0, self.start_time, end) for m in (model, finer))
+        return float(np.abs((coarse - fine) / self.state_scale).max())
+
     @property
     def energy_imbalance(self) -> float:
         """What a beat leaves over of the energy, relative to the work done in it; 0 if exact.
@@ -244,7 +253,7 @@ class FlightCycle(LimitCycle):
         return np.array([getattr(loads, name) for loads in self.beat.loads])
 
     def plot(self) -> Figure:
-        """Draw the states over a beat, multipliers, loads and power, and the wing at four phases."""
+        """Draw states, loads and power over a beat, the multipliers and the wing at four phases."""
         return figures.overview(self)
 
 

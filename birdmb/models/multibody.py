@@ -13,11 +13,11 @@ from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.multibody_kernel import body_velocity, wing_forces
 from birdmb.models.rigid import RigidModel
+from birdmb.models.steps import steps_for
 from birdmb.models.wing_model import (
     BODY_SCALE,
     BODY_STATES,
     BODY_UNITS,
-    STEPS_PER_BEAT,
     WingModel,
     lifting_line_lost,
 )
@@ -37,12 +37,12 @@ class MultibodyModel(WingModel):
     whose velocity is `u`, `w` is the centre of mass of the body without its wings.
 
     Integrated by Exudyn's explicit RK67 (order 6) with fixed steps, for shooting needs a flow that
-    is smooth in its start.
+    is smooth in its start. By default there are as many as the fastest motion of the joints needs.
     """
 
     limit_cycle_type = FlightCycle
 
-    def __init__(self, bird: Bird, *, steps_per_beat: int = STEPS_PER_BEAT) -> None:
+    def __init__(self, bird: Bird, *, steps_per_beat: int | None = None) -> None:
         super().__init__(bird, steps_per_beat=steps_per_beat)
         names = [joint.name for joint in bird.compliant_joints]
         self.state_names = BODY_STATES + tuple(n for j in names for n in (j, f"{j}.rate"))
@@ -52,6 +52,13 @@ class MultibodyModel(WingModel):
         self._damping = np.array([j.damping or 0.0 for j in bird.joints]) * self._compliant
         self._turning = self._joints_that_turn_the_wing_as_a_whole()
         self._shape = lru_cache(maxsize=_SHAPES_KEPT)(self._shape_at)
+
+    @cached_property
+    def steps_per_beat(self) -> int:
+        """Integration steps per wingbeat: as wanted, or as the fastest joint motion needs."""
+        if self._steps_wanted is not None or not self._compliant.any():
+            return super().steps_per_beat
+        return steps_for(self)
 
     @property
     def mass(self) -> float:
@@ -95,7 +102,7 @@ class MultibodyModel(WingModel):
         return flight if times is None else flight.at(times)
 
     def rhs(self, t: float, x: npt.ArrayLike) -> FloatArray:
-        """Rates (n,) of the states at t (s), from the exact partition of the equations of motion."""
+        """Rates (n,) of the states at t (s), by exact partition of the equations of motion."""
         state = np.asarray(x, dtype=float)
         _, v = self._coordinates(t, state)
         a, _ = self.accelerations(t, state)
@@ -110,8 +117,8 @@ class MultibodyModel(WingModel):
     def accelerations(self, t: float, x: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Accelerations (n,) of all coordinates and the actuators' forces (n,) on them.
 
-        Coordinates X, Z (m), pitch (rad), right and left joints (rad). The forces (N, N m) are those
-        that hold the prescribed joints to their drivers; springs and dampers are not among them.
+        Coordinates X, Z (m), pitch (rad), right and left joints (rad). The forces (N, N m) are
+        those that hold the prescribed joints to their drivers, without springs and dampers.
         """
         q, v = self._coordinates(t, np.asarray(x, dtype=float))
         mass, left = self._exudyn.mass_and_forces(t, q, v)
@@ -139,20 +146,28 @@ class MultibodyModel(WingModel):
 
         The compliant joints are left to swing for some beats on a body that flies on steadily.
         """
-        body = RigidModel(self.bird).initial_guess()
+        start = self.driven_state()
         if not self._compliant.any():
-            return body
+            return start
         held = self._prescribed.copy()
         held[:BODY_COORDINATES] = True
         frozen = ExudynBird(self.bird, self._forces, held, self._driver_accelerations)
-        angles, rates, _ = driven(self.wing, 0.0)
-        start = np.column_stack([angles, rates])[self._compliant].ravel()
-        q, v = self._coordinates(0.0, np.concatenate([body, start]))
+        q, v = self._coordinates(0.0, start)
         T = self.bird.period
         for _ in range(_BEATS_TO_SETTLE):
             q, v = frozen.integrate(q, v, 0.0, T, self.steps_per_beat)
         settled = self._state(q, v, "while the compliant joints settled for a first guess")
-        return np.concatenate([body, settled[4:]])
+        return np.concatenate([start[:4], settled[4:]])
+
+    def driven_state(self, t: float = 0.0) -> FloatArray:
+        """State (n,) at t (s) of the body in mean trim, with compliant joints on their drivers."""
+        angles, rates, _ = driven(self.wing, t)
+        joints = np.column_stack([angles, rates])[self._compliant].ravel()
+        return np.concatenate([self._trim, joints])
+
+    @cached_property
+    def _trim(self) -> FloatArray:
+        return RigidModel(self.bird).initial_guess()
 
     @cached_property
     def _prescribed(self) -> BoolArray:
@@ -176,8 +191,8 @@ class MultibodyModel(WingModel):
     def _state(self, q: FloatArray, v: FloatArray, when: str) -> FloatArray:
         if not (np.isfinite(q).all() and np.isfinite(v).all()):
             raise StateError(
-                f"{self.bird.name}: the flight diverged {when}; where the bird itself is sound, "
-                f"steps_per_beat = {self.steps_per_beat} is too few for its stiffest joint."
+                f"{self.bird.name}: the flight diverged {when} "
+                f"(integrated with {self.steps_per_beat} steps per beat)."
             )
         joints = np.flatnonzero(self._compliant) + BODY_COORDINATES
         u, w = body_velocity(q[2], v[0], v[1])
@@ -209,6 +224,8 @@ class MultibodyModel(WingModel):
 
     def _forces(self, t: float, q: FloatArray, v: FloatArray) -> FloatArray:
         """Generalised forces (n,) of air, springs and dampers: Exudyn's user function."""
+        if not (np.isfinite(q).all() and np.isfinite(v).all()):
+            return np.full(q.size, np.nan)
         joints = self._compliant.size
         angles = q[BODY_COORDINATES : BODY_COORDINATES + joints]
         rates = v[BODY_COORDINATES : BODY_COORDINATES + joints]
@@ -230,7 +247,8 @@ class MultibodyModel(WingModel):
 
     def _spring_torques(self, t: float, angles: FloatArray, rates: FloatArray) -> FloatArray:
         driver, driver_rates, _ = driven(self.wing, t)
-        return -self._stiffness * (angles - driver) - self._damping * (rates - driver_rates)
+        torques = self._stiffness * (driver - angles) + self._damping * (driver_rates - rates)
+        return np.asarray(torques)
 
     def _driver_accelerations(self, t: float) -> FloatArray:
         _, _, accelerations = driven(self.wing, t)

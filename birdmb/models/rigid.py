@@ -16,7 +16,6 @@ from birdmb.models.wing_model import (
     BODY_SCALE,
     BODY_STATES,
     BODY_UNITS,
-    STEPS_PER_BEAT,
     WingModel,
     lifting_line_lost,
 )
@@ -34,7 +33,7 @@ class RigidModel(WingModel):
     state_names = BODY_STATES
     state_units = BODY_UNITS
 
-    def __init__(self, bird: Bird, *, steps_per_beat: int = STEPS_PER_BEAT) -> None:
+    def __init__(self, bird: Bird, *, steps_per_beat: int | None = None) -> None:
         super().__init__(bird, steps_per_beat=steps_per_beat)
         self._constants = (bird.body.mass, bird.body.inertia_yy, bird.gravity, bird.air.density)
         self._table = lru_cache(maxsize=64)(self._tabulate)
@@ -48,7 +47,7 @@ class RigidModel(WingModel):
         """Rates (4,) of the states at time t (s) in state x (4,)."""
         wing = self._tabulate(t, 0.0, 0)
         rates, _ = rigid_rates(wing, 0, np.asarray(x, dtype=float), *self._constants)
-        return rates
+        return np.asarray(rates)
 
     def flow(self, x0: npt.ArrayLike, t0: float, t1: float) -> FloatArray:
         """State (4,) at t1 (s) of the flight through x0 (4,) at t0; raises `StateError`."""

@@ -19,9 +19,7 @@ def rigid_rates(
 ) -> tuple[FloatArray, FloatArray]:
     """Rates (4,) of u, w, q, theta at the k-th tabulated phase, and their Jacobian (4, 4)."""
     u, w, q, theta = x
-    loads = resultant_and_derivatives(
-        at_phase(wing.elements, k), wing.inverse[k], density, u, w, q
-    )
+    loads = resultant_and_derivatives(at_phase(wing.elements, k), wing.inverse[k], density, u, w, q)
     s, c = np.sin(theta), np.cos(theta)
     rates = np.empty(4)
     rates[0] = -q * w - gravity * s + loads[0, 0] / mass

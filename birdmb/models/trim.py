@@ -25,7 +25,7 @@ def mean_trim(bird: Bird, wing: PrescribedWing) -> FloatArray:
             total += resultant_and_derivatives(
                 at_phase(wing.elements, k), wing.inverse[k], bird.air.density, u, w, 0.0
             )
-        return total / phases
+        return np.asarray(total / phases)
 
     def accelerations(y: FloatArray) -> FloatArray:
         u, w, theta = y

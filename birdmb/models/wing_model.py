@@ -1,6 +1,7 @@
 """What both models of a bird have in common: the bird, its wing as arrays, its states' names."""
 
-from functools import partial
+from abc import ABC, abstractmethod
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -18,13 +19,14 @@ from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.chain import joint_chain
 from birdmb.wing.shape import wing_shape
 
-STEPS_PER_BEAT = 50
+# Divisible by 1 to 6: that many shooting segments then share one grid of steps.
+STEPS_PER_BEAT = 60
 BODY_STATES = ("u", "w", "q", "theta")
 BODY_UNITS = ("m/s", "m/s", "rad/s", "rad")
 BODY_SCALE = (10.0, 2.0, 1.0, 0.2)
 
 
-class WingModel:
+class WingModel(ABC):
     """A bird in symmetric longitudinal flight, with the loads of its wings.
 
     The body's states are `u`, `w` (m/s, velocity of the body's centre of mass along the body's x
@@ -32,21 +34,30 @@ class WingModel:
 
     Args:
         bird: the bird.
-        steps_per_beat: integration steps per wingbeat.
+        steps_per_beat: integration steps per wingbeat; by default the model chooses.
     """
 
-    def __init__(self, bird: Bird, *, steps_per_beat: int = STEPS_PER_BEAT) -> None:
+    def __init__(self, bird: Bird, *, steps_per_beat: int | None = None) -> None:
         self.bird = bird
         self.wing = wing_arrays(bird)
         self.period: float | None = bird.period
-        self.steps_per_beat = steps_per_beat
+        self._steps_wanted = steps_per_beat
         numbers = bird.wing.resolved_discretisation
         self._discretisation = (numbers.elements, numbers.rounding, numbers.scheme == "one-step")
+
+    @cached_property
+    def steps_per_beat(self) -> int:
+        """Integration steps per wingbeat."""
+        return STEPS_PER_BEAT if self._steps_wanted is None else self._steps_wanted
 
     @property
     def mass(self) -> float:
         """Mass of all that flies, kg."""
         return self.bird.body.mass
+
+    @abstractmethod
+    def flow(self, x0: npt.ArrayLike, t0: float, t1: float) -> FloatArray:
+        """State (n,) at t1 (s) of the flight through x0 (n,) at t0; raises `StateError`."""
 
     def joint_motion(self, t: float, _x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Angles (J,) rad and rates (J,) rad/s of the right wing's joints at time t (s)."""
@@ -89,7 +100,7 @@ class WingModel:
         return partial(type(self), self.bird, **self._options()), ()
 
     def _options(self) -> dict[str, Any]:
-        return {"steps_per_beat": self.steps_per_beat}
+        return {"steps_per_beat": self._steps_wanted}
 
     def _steps(self, t0: float, t1: float) -> int:
         return max(1, round(self.steps_per_beat * (t1 - t0) / self.bird.period))
@@ -102,6 +113,7 @@ def lifting_line_lost(bird: Bird, t: float, angles: FloatArray) -> StateError:
         for name, angle in zip(bird.joint_names, angles, strict=True)
     )
     return StateError(
-        f"{bird.name}: no line orthogonal to its chords fits the wing at t = {t:.4f} s ({listed}); "
-        f"the wing is folded too far, or wing.discretisation has too many elements for its rounding."
+        f"{bird.name}: no line orthogonal to its chords fits the wing at t = {t:.4f} s "
+        f"({listed}); the wing is folded too far, or wing.discretisation has too many elements for "
+        f"its rounding."
     )

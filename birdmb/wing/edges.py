@@ -53,7 +53,7 @@ def skeleton(wing: WingArrays, angles: Array) -> Skeleton:
 
 @njit(cache=True)
 def _feather_root_aft(wing: WingArrays, bones: Skeleton, angles: Array, feather: int) -> Array:
-    """Unit aft direction of the bones where a feather is rooted: at a joint, the two bones' mean."""
+    """Aft direction of the bones where a feather is rooted: at a joint, the two bones' mean."""
     bone = wing.feather_bone[feather]
     position = wing.feather_position[feather]
     if position == 0.0:
@@ -117,7 +117,9 @@ def leading_edge(wing: WingArrays, bones: Skeleton, tip: Array) -> Array:
             up[0] * out[1] - up[1] * out[0],
         ]
     )
-    forward = forward / np.sqrt(forward[0] * forward[0] + forward[1] * forward[1] + forward[2] * forward[2])
+    forward = forward / np.sqrt(
+        forward[0] * forward[0] + forward[1] * forward[1] + forward[2] * forward[2]
+    )
     upper_arm = wing.bone_length[HUMERUS] / (wing.bone_length[HUMERUS] + wing.bone_length[FOREARM])
     a = wing.half_thickness
     vertices = np.empty((5, 3), wrist.dtype)

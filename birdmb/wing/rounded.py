@@ -34,7 +34,9 @@ def rounded_polyline(vertices: Array, rounding: float) -> RoundedPolyline:
     legs = vertices[1:] - vertices[:-1]
     length = np.empty(n - 1, vertices.dtype)
     for i in range(n - 1):
-        length[i] = np.sqrt(legs[i, 0] * legs[i, 0] + legs[i, 1] * legs[i, 1] + legs[i, 2] * legs[i, 2])
+        length[i] = np.sqrt(
+            legs[i, 0] * legs[i, 0] + legs[i, 1] * legs[i, 1] + legs[i, 2] * legs[i, 2]
+        )
     total = length.sum()
     corner = np.empty(n - 2, vertices.dtype)
     width = np.empty(n - 2, vertices.dtype)

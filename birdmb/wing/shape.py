@@ -22,7 +22,7 @@ COMPLEX_STEP = 1e-30
 
 
 class WingShape(NamedTuple):
-    """Right wing, N elements; axes as the kernel that made it says, origin at the shoulder joint."""
+    """Right wing with N elements; origin at the shoulder, axes as its maker says."""
 
     line: FloatArray  # (2 N, 3) m, quarter-chord points: control, node, control, ... node at tip
     velocity: FloatArray  # (N, 3) m/s of the control points
@@ -152,5 +152,3 @@ def turned(shape: WingShape, R: FloatArray, spin: FloatArray) -> WingShape:
         shape.beyond,
         shape.converged,
     )
-
-

@@ -1,0 +1,88 @@
+"""Points to draw a wing by: edges, bones, feathers, chords and the lifting line."""
+
+from dataclasses import dataclass
+from typing import cast
+
+import numpy as np
+
+from birdmb._typing import FloatArray
+from birdmb.topology import Discretisation
+from birdmb.wing.arrays import WingArrays
+from birdmb.wing.edges import leading_edge, skeleton, trailing_edge
+from birdmb.wing.line import orthogonal_line
+from birdmb.wing.one_step import one_step_line
+from birdmb.wing.rounded import point, rounded_polyline
+
+_POINTS_ALONG_AN_EDGE = 200
+
+
+@dataclass(frozen=True)
+class WingOutline:
+    """The right wing in body axes (x forward, y right, z down), m from the body's centre of mass.
+
+    The left wing is its mirror image.
+    """
+
+    leading: FloatArray
+    """(P, 3), leading edge from the shoulder to the wing tip, as the aerodynamics sees it."""
+    trailing: FloatArray
+    """(P, 3), trailing edge likewise."""
+    bones: FloatArray
+    """(4, 3), shoulder, elbow, wrist and tip of the hand."""
+    feathers: FloatArray
+    """(F, 2, 3), root and tip of every feather, from the shoulder outwards."""
+    line: FloatArray
+    """(N + 1, 3), lifting line at the borders of its N elements: the shoulder, then the nodes."""
+    chords: FloatArray
+    """(N + 1, 2, 3), leading and trailing point of the chord through each point of `line`."""
+    converged: bool
+    """Whether the lifting line was found to its tolerance."""
+
+    @property
+    def panels(self) -> FloatArray:
+        """Surface of each element, (N, 4, 3): corners leading inner, outer, trailing outer, inner.
+
+        The element at the root reaches over the body to the centre line.
+        """
+        inner, outer = self.chords[:-1].copy(), self.chords[1:]
+        inner[0, :, 1] = 0.0
+        return np.stack([inner[:, 0], outer[:, 0], outer[:, 1], inner[:, 1]], axis=1)
+
+
+def wing_outline(
+    wing: WingArrays, angles: FloatArray, discretisation: Discretisation
+) -> WingOutline:
+    """Outline of the right wing at joint `angles` (J,) rad, discretised as the loads are."""
+    bones = skeleton(wing, angles)
+    tips = trailing_edge(wing, bones, angles)
+    # A feather of no length ends at its root.
+    roots = trailing_edge(wing._replace(feather_length=0.0 * wing.feather_length), bones, angles)
+    front = leading_edge(wing, bones, tips[-1])
+    # The kernels that pair the edges carry rates along as imaginary parts; here there are none.
+    moving = front.astype(complex), tips.astype(complex)
+    stations = 2 * discretisation.elements
+    if discretisation.scheme == "one-step":
+        pairs, _ = one_step_line(*moving, stations)
+        edges = front, tips
+    else:
+        pairs = orthogonal_line(*moving, stations, discretisation.rounding)
+        edges = _rounded(front, discretisation.rounding), _rounded(tips, discretisation.rounding)
+    borders = [0, *range(1, stations, 2)]
+    chords = np.stack([pairs.leading[borders].real, pairs.trailing[borders].real], axis=1)
+    return WingOutline(
+        leading=wing.root + edges[0],
+        trailing=wing.root + edges[1],
+        bones=wing.root + np.vstack([bones.origin, bones.tip]),
+        feathers=wing.root + np.stack([roots, tips], axis=1),
+        line=wing.root + 0.75 * chords[:, 0] + 0.25 * chords[:, 1],
+        chords=wing.root + chords,
+        converged=bool(pairs.converged),
+    )
+
+
+def _rounded(vertices: FloatArray, rounding: float) -> FloatArray:
+    edge = rounded_polyline(vertices, rounding)
+    points = np.empty((_POINTS_ALONG_AN_EDGE, 3))
+    for s, out in zip(np.linspace(0.0, 1.0, len(points)), points, strict=True):
+        point(edge, s, out)
+    return cast(FloatArray, points)
