@@ -53,27 +53,30 @@ def wing_outline(
     wing: WingArrays, angles: FloatArray, discretisation: Discretisation
 ) -> WingOutline:
     """Outline of the right wing at joint `angles` (J,) rad, discretised as the loads are."""
-    bones = skeleton(wing, angles)
-    tips = trailing_edge(wing, bones, angles)
+    # Complex as the model's own calls are (for rates, here none): no kernel is compiled twice.
+    still = angles.astype(complex)
+    bones = skeleton(wing, still)
+    tips = trailing_edge(wing, bones, still)
     # A feather of no length ends at its root.
-    roots = trailing_edge(wing._replace(feather_length=0.0 * wing.feather_length), bones, angles)
+    roots = trailing_edge(wing._replace(feather_length=0.0 * wing.feather_length), bones, still)
     front = leading_edge(wing, bones, tips[-1])
-    # The kernels that pair the edges carry rates along as imaginary parts; here there are none.
-    moving = front.astype(complex), tips.astype(complex)
     stations = 2 * discretisation.elements
+    edges = front.real.copy(), tips.real.copy()
     if discretisation.scheme == "one-step":
-        pairs, _ = one_step_line(*moving, stations)
-        edges = front, tips
+        pairs, _ = one_step_line(front, tips, stations)
     else:
-        pairs = orthogonal_line(*moving, stations, discretisation.rounding)
-        edges = _rounded(front, discretisation.rounding), _rounded(tips, discretisation.rounding)
+        pairs = orthogonal_line(front, tips, stations, discretisation.rounding)
+        edges = (
+            _rounded(edges[0], discretisation.rounding),
+            _rounded(edges[1], discretisation.rounding),
+        )
     borders = [0, *range(1, stations, 2)]
     chords = np.stack([pairs.leading[borders].real, pairs.trailing[borders].real], axis=1)
     return WingOutline(
         leading=wing.root + edges[0],
         trailing=wing.root + edges[1],
-        bones=wing.root + np.vstack([bones.origin, bones.tip]),
-        feathers=wing.root + np.stack([roots, tips], axis=1),
+        bones=wing.root + np.vstack([bones.origin.real, bones.tip.real]),
+        feathers=wing.root + np.stack([roots.real, tips.real], axis=1),
         line=wing.root + 0.75 * chords[:, 0] + 0.25 * chords[:, 1],
         chords=wing.root + chords,
         converged=bool(pairs.converged),

@@ -1,0 +1,67 @@
+"""All about a limit cycle on one page."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+from birdmb.figures.loads import draw_loads, draw_wing_power
+from birdmb.figures.multipliers import draw_labelled_multipliers
+from birdmb.figures.states import draw_states
+from birdmb.figures.style import label_beat, model_of
+from birdmb.figures.wing import OBLIQUE, draw_wing_phases
+
+if TYPE_CHECKING:
+    from birdmb.models import FlightCycle
+
+
+def overview(cycle: FlightCycle) -> Figure:
+    """Draw the wings at four phases, states, loads, power and multipliers on one page (16:9)."""
+    layout = ConstrainedLayoutEngine(w_pad=0.1, h_pad=0.06)
+    figure = Figure(figsize=(16, 9), layout=layout)
+    top, bottom = figure.subfigures(2, 1, squeeze=False, height_ratios=(1, 2.1))[:, 0]
+    draw_wing_phases(top, cycle, (OBLIQUE,))
+    left, middle, right = bottom.subfigures(1, 3, squeeze=False, width_ratios=(1.4, 1, 0.95))[0]
+    draw_states(left, cycle)
+    *loads, power = middle.subplots(4, 1, sharex=True)
+    draw_loads(loads, cycle)
+    draw_wing_power(power, cycle)
+    label_beat(power)
+    middle.align_ylabels()
+    circle, numbers = right.subplots(2, 1, height_ratios=(1.7, 1))
+    draw_labelled_multipliers(circle, cycle)
+    _write_numbers(numbers, cycle)
+    top.suptitle(f"{model_of(cycle).bird.name}: {_verdict(cycle)}", fontsize="large")
+    return figure
+
+
+def _verdict(cycle: FlightCycle) -> str:
+    fastest = (
+        f"{cycle.doubling_times[0]:.2g} s ({cycle.doubling_times[0] / cycle.period:.2g} beats)"
+    )
+    if cycle.stability == "unstable":
+        return f"unstable, disturbances double in {fastest}"
+    if cycle.stability == "stable":
+        return f"stable, disturbances halve in {fastest} or less"
+    return "on the verge of stability"
+
+
+def _write_numbers(axes: Axes, cycle: FlightCycle) -> None:
+    rows = {
+        "speed": f"{cycle.mean_speed:.2f} m/s",
+        "climb rate": f"{cycle.mean_climb_rate:+.2f} m/s",
+        "power of the wings": f"{cycle.power:.2f} W",
+        "power from sinking": f"{cycle.potential_power:.2f} W",
+        "power if level": f"{cycle.corrected_power:.2f} W",
+        "wingbeat": f"{cycle.period:.3g} s",
+    }
+    axes.set_axis_off()
+    for i, (name, value) in enumerate(rows.items()):
+        y = 1 - (i + 0.5) / len(rows)
+        axes.text(0.12, y, name, va="center", transform=axes.transAxes)
+        axes.text(
+            0.95, y, value.replace("-", "−"), va="center", ha="right", transform=axes.transAxes
+        )

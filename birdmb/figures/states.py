@@ -1,0 +1,73 @@
+"""The states of a bird over a beat."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+from matplotlib.figure import Figure, SubFigure
+
+from birdmb._typing import FloatArray
+from birdmb.figures.style import DRIVER, LINE, beat_axis, label_beat, model_of, symbol
+
+if TYPE_CHECKING:
+    from birdmb.models import FlightCycle
+    from birdmb.orbits.problem import HasStateUnits
+
+_RATE = ".rate"
+_IN_DEGREES = {"rad": "°", "rad/s": "°/s"}
+# Angles beside their rates, u beside w.
+_ORDER_OF_BODY = ("u", "w", "theta", "q")
+
+
+def states(cycle: FlightCycle) -> Figure:
+    """Draw the states over a beat, angles in degrees; compliant joints with their drivers."""
+    rows = len(cycle.state_names) // 2
+    figure = Figure(figsize=(8.5, 0.7 + 1.75 * rows), layout="constrained")
+    draw_states(figure, cycle)
+    figure.suptitle(f"{model_of(cycle).bird.name}: states over a beat", fontsize="medium")
+    return figure
+
+
+def draw_states(figure: Figure | SubFigure, cycle: FlightCycle) -> None:
+    """Draw the states into a figure, in two columns."""
+    units = cast("HasStateUnits", cycle.model).state_units
+    names = [*_ORDER_OF_BODY, *(n for n in cycle.state_names if n not in _ORDER_OF_BODY)]
+    axes = figure.subplots(len(names) // 2, 2, sharex=True).ravel()
+    for name, ax in zip(names, axes, strict=True):
+        at = cycle.state_names.index(name)
+        unit = units[at]
+        scale = np.degrees(1.0) if unit in _IN_DEGREES else 1.0
+        beat_axis(ax, cycle)
+        driver = _driver(cycle, name)
+        if driver is not None:
+            ax.plot(cycle.beat.times, scale * driver, "--", color=DRIVER, lw=1.2, label="driver")
+        ax.plot(cycle.beat.times, scale * cycle.beat.states[:, at], color=LINE, label="state")
+        ax.set_ylabel(f"{_label(name)} ({_IN_DEGREES.get(unit, unit)})")
+        if driver is not None and not name.endswith(_RATE):
+            ax.legend(frameon=False, fontsize="small", loc="best", handlelength=1.8)
+    for ax in axes[-2:]:
+        label_beat(ax)
+    figure.align_ylabels()
+
+
+def _label(name: str) -> str:
+    """Name of a state; the place and the motion of a joint on lines of their own."""
+    if not name.endswith(_RATE):
+        return symbol(name).replace(".", "\n")
+    place, _, motion = name.removesuffix(_RATE).partition(".")
+    return f"{place}\n{motion} rate"
+
+
+def _driver(cycle: FlightCycle, state: str) -> FloatArray | None:
+    """Angle or rate (K,) that a compliant joint's driver has, `None` for states without one."""
+    bird = model_of(cycle).bird
+    joint_name = state.removesuffix(_RATE)
+    if joint_name not in bird.joint_names:
+        return None
+    joint = bird.joint(joint_name)
+    frequency = 2.0 * np.pi * bird.gait.frequency
+    argument = frequency * cycle.beat.times + joint.phase
+    if state.endswith(_RATE):
+        return np.asarray(frequency * joint.amplitude * np.cos(argument))
+    return np.asarray(joint.offset + joint.amplitude * np.sin(argument))

@@ -1,0 +1,65 @@
+"""What all figures share: colours, the axis of the beat, and which part of it is the downstroke."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from birdmb._typing import FloatArray
+
+if TYPE_CHECKING:
+    from birdmb.models import FlightCycle
+    from birdmb.models.wing_model import WingModel
+
+LINE = "tab:blue"
+DRIVER = "0.35"
+MEAN = "tab:orange"
+_SHADE = "0.92"
+
+# In place of "theta", say, as the text in a picture.
+_SYMBOLS = {"theta": "θ"}
+
+
+def model_of(cycle: FlightCycle) -> WingModel:
+    """The bird's model, which `FlightCycle.model` is in general terms."""
+    return cast("WingModel", cycle.model)
+
+
+def symbol(name: str) -> str:
+    """Name of a state as it is written in a figure."""
+    return _SYMBOLS.get(name, name)
+
+
+def stroke_speed(cycle: FlightCycle) -> FloatArray:
+    """Speed (K,) m/s at which the wings go down relative to the body, averaged over their area."""
+    beat = cycle.beat
+    areas = np.array([loads.chord * loads.width for loads in beat.loads])
+    downwards = np.array([loads.velocity[:, 2] for loads in beat.loads])
+    return np.asarray((areas * downwards).sum(axis=1) / areas.sum(axis=1))
+
+
+def downstrokes(cycle: FlightCycle) -> list[tuple[float, float]]:
+    """Times (start, end) s in the beat between which the wings go down."""
+    times, speed = cycle.beat.times, stroke_speed(cycle)
+    down = speed > 0
+    turns = np.flatnonzero(down[1:] != down[:-1])
+    share = speed[turns] / (speed[turns] - speed[turns + 1])
+    turning = times[turns] + share * (times[turns + 1] - times[turns])
+    borders = [*times[:1][down[:1]], *turning, *times[-1:][down[-1:]]]
+    return [(float(a), float(b)) for a, b in zip(borders[::2], borders[1::2], strict=True)]
+
+
+def beat_axis(axes: Axes, cycle: FlightCycle) -> None:
+    """Let the x axis run over the beat, the downstroke shaded."""
+    for start, end in downstrokes(cycle):
+        axes.axvspan(start, end, color=_SHADE, linewidth=0, zorder=0)
+    axes.set_xlim(cycle.beat.times[0], cycle.beat.times[-1])
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.margins(y=0.08)
+
+
+def label_beat(axes: Axes) -> None:
+    """Write under an axis over the beat what it shows."""
+    axes.set_xlabel("time (s), downstroke shaded")
