@@ -75,7 +75,8 @@ def wake_influence(position: FloatArray, node: FloatArray) -> tuple[FloatArray, 
     induced_y = np.zeros((n, n))
     induced_z = np.zeros((n, n))
     for i in range(n):
-        for k in range(n + 1):
+        # The first node lies on the centre line, where nothing is shed for symmetry.
+        for k in range(1, n + 1):
             rz = position[i, 2] - node[k, 2]
             ry = position[i, 1] - node[k, 1]
             ry_mirror = position[i, 1] + node[k, 1]
@@ -88,9 +89,8 @@ def wake_influence(position: FloatArray, node: FloatArray) -> tuple[FloatArray, 
             if k < n:
                 induced_y[i, k] -= vy
                 induced_z[i, k] -= vz
-            if k > 0:
-                induced_y[i, k - 1] += vy
-                induced_z[i, k - 1] += vz
+            induced_y[i, k - 1] += vy
+            induced_z[i, k - 1] += vz
     return induced_y, induced_z
 
 

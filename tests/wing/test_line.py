@@ -1,0 +1,161 @@
+"""The lifting line: orthogonal, smooth, and with exact velocities."""
+
+import numpy as np
+import pytest
+
+from birdmb.aerodynamics.prescribed import driven
+from birdmb.topology import PRESETS
+from birdmb.wing.arrays import wing_arrays
+from birdmb.wing.chain import frame_after, joint_chain
+from birdmb.wing.edges import wing_edges
+from birdmb.wing.line import orthogonal_line
+from birdmb.wing.one_step import one_step_line
+from birdmb.wing.rounded import point, rounded_polyline, tangent
+from birdmb.wing.shape import turned, wing_shape
+from tests.conftest import REFERENCE
+from tests.wing.test_edges import from_reference_axes
+
+ROUNDING = PRESETS["converged"].rounding
+PHASES = np.arange(8) / 32
+
+
+@pytest.fixture(scope="module")
+def wing(ibis):
+    return wing_arrays(ibis)
+
+
+def edges_at(wing, t):
+    return wing_edges(wing, driven(wing, t)[0] + 0j)
+
+
+def test_rounded_polyline_leaves_the_legs_only_near_the_corners():
+    vertices = np.array([[0.0, 0, 0], [1, 0, 0], [1, 2, 0], [1, 2, 3]])
+    line = rounded_polyline(vertices, 0.5)
+    out = np.empty(3)
+    for s, expected in ((0.0, vertices[0]), (1.0, vertices[3]), (2 / 6, [1, 1, 0])):
+        point(line, s, out)
+        np.testing.assert_allclose(out, expected, atol=1e-15)
+    # Half-width 0.5 * 1 * 2 / 3 at the first corner: there the legs are left.
+    for s in (1 - 1 / 3, 1 + 1 / 3):
+        point(line, s / 6, out)
+        np.testing.assert_allclose(out, [min(s, 1), max(0, s - 1), 0], atol=1e-15)
+    point(line, 1 / 6, out)
+    assert 0 < np.hypot(1 - out[0], out[1]) < 1 / 3
+    rate = np.empty(3)
+    tangent(line, 0.2, rate)
+    q = np.empty(3, complex)
+    point(rounded_polyline(vertices + 0j, 0.5), 0.2 + 1e-30j, q)
+    np.testing.assert_allclose(rate, q.imag / 1e-30, rtol=1e-13)
+
+
+@pytest.mark.parametrize("t", PHASES)
+def test_chords_are_orthogonal_to_the_line(wing, t):
+    pairs = orthogonal_line(*edges_at(wing, t), 64, ROUNDING)
+    assert pairs.converged
+    line = (0.75 * pairs.leading + 0.25 * pairs.trailing).real
+    chord = (pairs.trailing - pairs.leading).real[1:-1]
+    along = line[2:] - line[:-2]
+    cosine = np.sum(chord * along, axis=1) / (
+        np.linalg.norm(chord, axis=1) * np.linalg.norm(along, axis=1)
+    )
+    # Near the tip the chords are short: their cosines tell the tolerance of the Newton iteration.
+    assert np.abs(cosine).max() < 1e-6
+
+
+def test_line_is_second_order_in_the_number_of_stations(wing):
+    lengths = []
+    for stations in (65, 129, 257, 513):
+        pairs = orthogonal_line(*edges_at(wing, 0.0), stations, 1.0)
+        line = (0.75 * pairs.leading + 0.25 * pairs.trailing).real
+        lengths.append(np.linalg.norm(np.diff(line, axis=0), axis=1).sum())
+    steps = np.abs(np.diff(lengths))
+    orders = np.log2(steps[:-1] / steps[1:])
+    assert (orders > 1.8).all(), orders
+
+
+@pytest.mark.parametrize("published", [False, True])
+@pytest.mark.parametrize("t", [0.01, 0.09, 0.13, 0.2])
+def test_velocities_are_the_derivatives_of_the_positions(wing, t, published):
+    elements = 8 if published else 32
+
+    def controls(when):
+        angles, rates, _ = driven(wing, when)
+        return wing_shape(wing, angles, rates, elements, ROUNDING, published)
+
+    h = 2e-6
+    difference = (controls(t + h).line[0::2] - controls(t - h).line[0::2]) / (2 * h)
+    velocity = controls(t).velocity
+    np.testing.assert_allclose(velocity, difference, atol=2e-7 * np.abs(velocity).max())
+
+
+def test_line_is_smooth_in_time(wing):
+    """The error of differencing the velocity falls like h^2, as it does for smooth functions only.
+
+    The published line, whose points jump from leg to leg, fails this.
+    """
+
+    def velocity(t):
+        angles, rates, _ = driven(wing, t)
+        return wing_shape(wing, angles, rates, 32, ROUNDING, False).velocity
+
+    for t in PHASES:
+        fine, coarse = (
+            (velocity(t + h) - 2 * velocity(t) + velocity(t - h)) / h**2 for h in (5e-5, 1e-4)
+        )
+        assert np.abs(fine - coarse).max() < 0.05 * np.abs(fine).max()
+
+
+def test_published_line_is_the_reference_programs(wing):
+    reference = np.load(REFERENCE / "geometry.npz")
+    for i, t in enumerate(reference["t"]):
+        pairs, _ = one_step_line(*edges_at(wing, t), 16)
+        line = 0.75 * pairs.leading + 0.25 * pairs.trailing
+        np.testing.assert_allclose(
+            line.real, from_reference_axes(reference["line_right"][i]), atol=1e-14
+        )
+        chord = np.linalg.norm((pairs.trailing - pairs.leading).real, axis=1)
+        np.testing.assert_allclose(chord, reference["chord_right"][i], atol=1e-14)
+
+
+def test_published_velocities_are_the_reference_programs(wing):
+    """To the reference's central differences, 2e-6 m/s."""
+    reference = np.load(REFERENCE / "geometry.npz")
+    for i, t in enumerate(reference["t"]):
+        angles, rates, _ = driven(wing, t)
+        shape = wing_shape(wing, angles, rates, 8, ROUNDING, True)
+        np.testing.assert_allclose(
+            shape.velocity, from_reference_axes(reference["v_kin"][i, 8:]), atol=2e-6
+        )
+
+
+def test_shoulder_joints_turn_the_shape_as_a_whole(wing):
+    """A shape at zero shoulder angles, turned, is the shape at those angles, rates and all."""
+    angles, rates, _ = driven(wing, 0.06)
+    still_angles, still_rates = angles.copy(), rates.copy()
+    still_angles[:3] = still_rates[:3] = 0.0
+    still = wing_shape(wing, still_angles, still_rates, 16, ROUNDING, False)
+    spin = rates[:3] @ joint_chain(wing, angles).axis[:3]
+    whole = turned(still, frame_after(wing, angles, 3), spin)
+    direct = wing_shape(wing, angles, rates, 16, ROUNDING, False)
+    for name in ("line", "velocity", "chord_direction", "normal", "span_direction", "chord"):
+        np.testing.assert_allclose(getattr(whole, name), getattr(direct, name), atol=1e-10)
+
+
+def test_loads_pass_over_smoothly_from_bone_to_bone(wing):
+    for t in PHASES:
+        angles, rates, _ = driven(wing, t)
+        beyond = wing_shape(wing, angles, rates, 64, ROUNDING, False).beyond
+        assert (np.diff(beyond, axis=0) >= 0).all()
+        assert (beyond[0] == 0).all()
+        assert (beyond[-1] == 1).all()
+        assert (beyond[:, 0] >= beyond[:, 1]).all()
+        assert ((beyond > 0) & (beyond < 1)).any()
+
+
+def test_a_line_that_cannot_be_found_is_told(ibis):
+    """With sharp corners on fine stations and the wing folded up, no such line is found."""
+    folded = wing_arrays(
+        ibis.with_values({"elbow.sweep.offset_deg": 130, "wrist.sweep.offset_deg": -150})
+    )
+    pairs = orthogonal_line(*edges_at(folded, 0.0), 192, 0.05)
+    assert not pairs.converged
