@@ -21,7 +21,7 @@ BifurcationKind = Literal["fold", "period doubling", "Neimark-Sacker", "branch p
 
 @dataclass(frozen=True)
 class BranchPoint:
-    """One orbit of a branch.
+    """One orbit of a branch: `floquet(family(parameter), points, period, ...)` has all of it.
 
     Attributes:
         parameter: value of the parameter.
@@ -200,11 +200,13 @@ def _stack(points: Sequence[BranchPoint], dim: str) -> dict[str, xr.DataArray]:
         "multiplier_real": array([p.multipliers.real for p in points], "multiplier"),
         "multiplier_imag": array([p.multipliers.imag for p in points], "multiplier"),
         "multiplier_error": array([p.multiplier_errors for p in points], "multiplier"),
+        # NetCDF has no missing integers.
+        "trivial_index": array(
+            [np.nan if p.trivial_index is None else p.trivial_index for p in points]
+        ),
         "stability": array([p.stability for p in points]),
         "tangent": array([p.tangent for p in points], "unknown"),
     }
-    if points[0].trivial_index is not None:
-        data["trivial_index"] = array([p.trivial_index for p in points])
     for name in points[0].observables:
         data[f"observable_{name}"] = array([p.observables[name] for p in points])
     return data
@@ -217,7 +219,7 @@ def _unstack(data: xr.Dataset, prefix: str, dim: str) -> list[BranchPoint]:
     for i in range(data.sizes[dim]):
         row = data.isel({dim: i})
         real, imag = row[f"{prefix}multiplier_real"], row[f"{prefix}multiplier_imag"]
-        trivial = row.get(f"{prefix}trivial_index")
+        trivial = float(row[f"{prefix}trivial_index"])
         points.append(
             BranchPoint(
                 parameter=float(row[f"{prefix}parameter"]),
@@ -226,7 +228,7 @@ def _unstack(data: xr.Dataset, prefix: str, dim: str) -> list[BranchPoint]:
                 residual=float(row[f"{prefix}residual"]),
                 multipliers=real.values + 1j * imag.values,
                 multiplier_errors=row[f"{prefix}multiplier_error"].values,
-                trivial_index=None if trivial is None else int(trivial),
+                trivial_index=None if np.isnan(trivial) else int(trivial),
                 stability=cast("Stability", str(row[f"{prefix}stability"].values)),
                 tangent=row[f"{prefix}tangent"].values,
                 observables={key.removeprefix(start): float(row[key]) for key in observables},

@@ -73,7 +73,9 @@ class _Point:
 
     @property
     def norm(self) -> float:
-        return float(np.linalg.norm(self.residual))
+        # A flow that all but blew up may return values whose squares overflow: no better for it.
+        with np.errstate(over="ignore"):
+            return float(np.linalg.norm(self.residual))
 
 
 @dataclass(frozen=True)
@@ -159,6 +161,12 @@ def solve(
             )
         try:
             step = stepper.advance(point)
+        except StateError as error:
+            raise failure(
+                ConvergenceError,
+                f"beside the point reached the flow fails ({error})",
+                "The orbit may lie at the edge of what the model covers; start further inside.",
+            ) from error
         except np.linalg.LinAlgError:
             raise failure(
                 SingularJacobianError,

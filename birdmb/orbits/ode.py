@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -30,10 +31,11 @@ class Trajectory:
 class OdeModel:
     """Flow, variational equations and divergence of dx/dt = rhs(t, x).
 
-    Integrated by DOP853 (Hairer, Norsett & Wanner 1993, Dormand-Prince of order 8 with step
-    control). The Jacobian of the flow solves the variational equations dPhi/dt = J(t, x) Phi along
-    with the state, under the same error control. Where `jacobian` is not given, J is a four-point
-    central difference of `rhs`: relative error about 1e-12, exact for polynomials up to degree 4.
+    Integrated by default by DOP853 (Hairer, Norsett & Wanner 1993, Dormand-Prince of order 8 with
+    step control). The Jacobian of the flow solves the variational equations dPhi/dt = J(t, x) Phi
+    along with the state, under the same error control. Where `jacobian` is not given, J is a
+    four-point central difference of `rhs`: relative error about 1e-12, exact for polynomials up to
+    degree 4.
     """
 
     def __init__(
@@ -45,6 +47,7 @@ class OdeModel:
         *,
         guess: npt.ArrayLike | None = None,
         state_scale: npt.ArrayLike | None = None,
+        integrator: Literal["DOP853", "LSODA", "Radau"] = "DOP853",
         rtol: float = 1e-11,
         atol: npt.ArrayLike = 1e-13,
     ) -> None:
@@ -58,6 +61,7 @@ class OdeModel:
             guess: state (n,) near the orbit, where a search starts if it is given no other.
             state_scale: typical sizes of the states, (n,); also sizes difference steps. By default
                 the search takes them from the solution through its guess.
+            integrator: method of scipy's `solve_ivp`; one of the others for a stiff system.
             rtol: relative tolerance of the integration.
             atol: absolute tolerance, one value or one per state, in the units of the states.
 
@@ -82,6 +86,7 @@ class OdeModel:
         self._jacobian = jacobian
         self._guess = None if guess is None else np.array(guess, float)
         self._scale = None if state_scale is None else np.array(state_scale, float)
+        self._integrator = integrator
         self._rtol = rtol
         self._atol = np.broadcast_to(np.asarray(atol, float), (n,))
 
@@ -166,7 +171,7 @@ class OdeModel:
                 function,
                 (t0, t1),
                 start,
-                method="DOP853",
+                method=self._integrator,
                 t_eval=[t1] if times is None else times,
                 rtol=self._rtol,
                 atol=atol,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -77,13 +78,21 @@ def plot_branch(branch: Branch, quantity: str) -> Figure:
     figure = Figure(figsize=(8, 7), layout="constrained")
     top, bottom = figure.subplots(2, 1, sharex=True)
     parameters, values = branch.parameters, branch.values(quantity)
-    for i in range(len(parameters) - 1):
-        ends = slice(i, i + 2)
-        colour = VERDICT_COLOURS[branch.points[i + 1].stability]
-        top.plot(parameters[ends], values[ends], "-", color=colour)
+    for i, (before, after) in enumerate(itertools.pairwise(branch.points)):
+        # A change of verdict shows where it was located, else at the point that shows it first.
+        between = [b.point for b in branch.bifurcations if b.after == i]
+        nodes = [before, *between, after]
+        verdicts = [
+            before.stability if between else after.stability,
+            *(after.stability,) * len(between),
+        ]
+        for ends, verdict in zip(itertools.pairwise(nodes), verdicts, strict=True):
+            x = [point.parameter for point in ends]
+            y = [branch.value_of(point, quantity) for point in ends]
+            top.plot(x, y, "-", color=VERDICT_COLOURS[verdict])
     top.scatter(parameters, values, s=8, c=[VERDICT_COLOURS[p.stability] for p in branch.points])
     moduli = np.array([np.abs(point.multipliers) for point in branch.points])
-    bottom.plot(parameters, moduli, ".-", color="0.3", linewidth=0.8, markersize=3)
+    bottom.plot(parameters, moduli, ".", color="0.3", markersize=4)
     bottom.axhline(1, color="0.7")
     for bifurcation in branch.bifurcations:
         value = branch.value_of(bifurcation.point, quantity)

@@ -117,9 +117,9 @@ class FloquetResult:
             return None
         times = np.linspace(self.start_time, self.start_time + self.period, len(self.points) + 1)
         expected = sum(map(self.model.divergence_integral, self.points, times[:-1], times[1:]))
-        with np.errstate(divide="ignore"):
+        with np.errstate(divide="ignore", over="ignore"):
             found = float(np.sum(np.log(np.abs(self.multipliers))))
-        return abs(float(np.expm1(found - expected)))
+            return abs(float(np.expm1(found - expected)))
 
     def trajectory(self, times: npt.ArrayLike | None = None) -> Trajectory:
         """States at `times` (k,) in s, any times: the orbit is continued periodically.

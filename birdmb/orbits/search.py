@@ -139,7 +139,10 @@ def _reject_equilibrium(
     iterations: tuple[Iteration, ...],
 ) -> None:
     times = work.start + period * np.arange(SAMPLES_PER_SEGMENT) / SAMPLES_PER_SEGMENT
-    path = sample(work.model, x, work.start, times, work.start + period)
+    try:
+        path = sample(work.model, x, work.start, times, work.start + period)
+    except StateError:
+        return  # so unstable that it runs away within a period: no equilibrium does
     if float(np.abs((path - x) / work.scale).max()) > _SMALLEST_AMPLITUDE:
         return
     where = np.array2string(x, precision=6)

@@ -205,7 +205,7 @@ class Tracer:
 
     def _reason(self, error: Exception, u: FloatArray, point: BranchPoint) -> StopReason:
         """Tell a model that ends here from a corrector that fails."""
-        if isinstance(error, StateError):
+        if isinstance(error, StateError) or isinstance(error.__cause__, StateError):
             return "the branch left the domain of the model"
         try:
             self._equations.residual(u + 4 * self._steps.shortest * point.tangent)

@@ -1,7 +1,10 @@
 import numpy as np
 import pytest
 import scipy.linalg
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from orbit_systems import ForcedLinear, mathieu, roessler, stuart_landau, van_der_pol
+from scipy.optimize import linear_sum_assignment
 
 from birdmb.orbits import (
     ArgumentError,
@@ -74,6 +77,24 @@ def test_periodic_solver_keeps_complex_pairs(small):
     )
     pairs = [1.1 * np.exp(0.3j), 1.1 * np.exp(-0.3j), small * np.exp(2j), small * np.exp(-2j)]
     assert found.multipliers == pytest.approx([*pairs, small / 4**m], rel=1e-9)
+
+
+@given(
+    shape=st.tuples(st.integers(1, 6), st.integers(1, 5)),
+    seed=st.integers(0, 2**16),
+    spread=st.sampled_from([0.0, 1.0, 6.0]),
+    singular=st.booleans(),
+)
+@settings(max_examples=40, deadline=None, derandomize=True)
+def test_both_solvers_agree_within_their_errors(shape, seed, spread, singular):
+    (m, n), rng = shape, np.random.default_rng(seed)
+    factors = rng.standard_normal((m, n, n)) * np.exp(rng.uniform(-spread, spread, (m, n, 1)))
+    if singular:
+        factors[0, :, 0] = 0
+    one, other = (solver(factors, np.zeros_like(factors), np.ones(n)) for solver in SOLVERS)
+    distance = np.abs(one.multipliers[:, None] - other.multipliers)
+    allowed = one.errors[:, None] + other.errors + 1e-300  # an exact zero has no error
+    assert (distance / allowed)[linear_sum_assignment(distance / allowed)].max() < 1
 
 
 @pytest.mark.parametrize("solver", SOLVERS)

@@ -1,10 +1,11 @@
 import pickle
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import dataclass
+from multiprocessing import get_context
 
 import numpy as np
 import pytest
-from orbit_systems import mathieu, roessler, van_der_pol
+from orbit_systems import ForcedLinear, mathieu, roessler, van_der_pol
 
 from birdmb.errors import BirdmbError, StateError
 from birdmb.orbits import (
@@ -99,6 +100,17 @@ def test_a_nan_on_the_way_shortens_the_step():
     assert cycle.x0 == pytest.approx([np.e], abs=1e-9)
 
 
+def test_a_flow_that_fails_beside_the_guess_is_said():
+    def step(x):
+        if x[0] > 1:
+            raise StateError("stalled.")
+        return 0.5 * x
+
+    with pytest.raises(ConvergenceError, match=r"beside the point reached .*stalled") as caught:
+        find_limit_cycle(Map(step), [1.0])
+    assert caught.value.best_x == pytest.approx([1.0])
+
+
 @pytest.mark.parametrize("method", ["newton", "levenberg-marquardt"])
 def test_every_step_reduces_the_residual(method):
     seen = []
@@ -120,6 +132,15 @@ def test_an_executor_changes_no_bit(jacobian):
     assert np.array_equal(alone.monodromy, shared.monodromy)
     assert np.array_equal(alone.multipliers, shared.multipliers)
     assert np.array_equal(alone.points, shared.points)
+
+
+def test_processes_change_no_bit():
+    model = ForcedLinear()
+    alone = find_limit_cycle(model, [0.0, 0.0, 0.0], segments=2)
+    with ProcessPoolExecutor(2, get_context("spawn")) as executor:
+        shared = find_limit_cycle(model, [0.0, 0.0, 0.0], segments=2, executor=executor)
+    assert np.array_equal(alone.monodromy, shared.monodromy)
+    assert np.array_equal(alone.multiplier_errors, shared.multiplier_errors)
 
 
 def test_a_model_brings_its_own_result():

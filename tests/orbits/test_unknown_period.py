@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from orbit_systems import ROESSLER, roessler, stuart_landau, van_der_pol
 
-from birdmb.orbits import EquilibriumError, find_limit_cycle
+from birdmb.orbits import EquilibriumError, OdeModel, find_limit_cycle
 
 
 @pytest.mark.parametrize("segments", [1, 4])
@@ -20,6 +20,55 @@ def test_stiffer_van_der_pol():
     assert cycle.period == pytest.approx(8.859095499720, abs=1e-8)
     assert cycle.liouville_defect() < 1e-8
     assert cycle.multipliers[1] == pytest.approx(6.99e-16, rel=1e-3)
+
+
+def test_a_flow_alone_is_enough():
+    class FlowOnly:
+        state_names = ("x", "v")
+        period = None
+
+        def __init__(self):
+            self._model = van_der_pol(1)
+
+        def flow(self, x0, t0, t1):
+            return self._model.flow(x0, t0, t1)
+
+    cycle = find_limit_cycle(FlowOnly(), [2.0, 0.0], period_guess=6.5, segments=2)
+    assert cycle.jacobian_method == "finite-differences"
+    assert cycle.period == pytest.approx(6.663286859323, abs=1e-8)
+    errors = np.abs(cycle.multipliers - [1, 8.596950636e-4])
+    assert (errors < cycle.multiplier_errors).all()
+    assert (cycle.multiplier_errors < 1e-3).all()
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-4])
+def test_errors_cover_an_orbit_that_is_not_quite_closed(tolerance):
+    model = roessler(3.5)
+    exact = find_limit_cycle(model, [0.0, -4.6, 0.05], period_guess=5.9)
+    near = exact.points + tolerance / 3
+    rough = find_limit_cycle(model, near, period_guess=5.92, tolerance=tolerance)
+    errors = np.abs(rough.multipliers - exact.multipliers)[:2]
+    assert (errors < rough.multiplier_errors[:2]).all()
+    assert (rough.multiplier_errors[:2] < 1e3 * errors).all()
+
+
+def test_segments_tame_an_orbit_that_runs_away():
+    # radius grows from the unstable cycle r = 1 as r' = 3 r (r**2 - 1): infinite within a period
+    def rhs(_t, x):
+        growth = 3 * (x @ x - 1)
+        return [growth * x[0] - x[1], growth * x[1] + x[0]]
+
+    cycle = find_limit_cycle(OdeModel(rhs, ("x", "y")), ring(16), period_guess=6.2, segments=16)
+    assert cycle.period == pytest.approx(2 * np.pi, abs=1e-8)
+    assert np.log(cycle.multipliers[0].real) == pytest.approx(12 * np.pi, abs=1e-7)
+    assert cycle.multipliers[1] == pytest.approx(1, abs=1e-7)
+    assert cycle.stability == "unstable"
+    assert np.hypot(*cycle.trajectory().states.T) == pytest.approx(1, abs=1e-6)
+
+
+def ring(count):
+    angle = 2 * np.pi * np.arange(count) / count
+    return 1.02 * np.column_stack([np.cos(angle), np.sin(angle)])
 
 
 def test_stuart_landau():

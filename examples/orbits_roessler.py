@@ -1,0 +1,47 @@
+"""Roessler's system: an autonomous cycle, its period doubling, and the chaos beyond.
+
+Run `python examples/orbits_roessler.py [DIRECTORY]`; the figures go to the directory.
+"""
+
+import sys
+from pathlib import Path
+
+from birdmb.orbits import (
+    OdeModel,
+    Steps,
+    continue_branch,
+    find_limit_cycle,
+    largest_lyapunov_exponent,
+)
+
+
+def roessler(c: float, a: float = 0.15, b: float = 0.2) -> OdeModel:
+    """x' = -y - z, y' = x + a y, z' = b + z (x - c)."""
+    return OdeModel(
+        lambda _t, s: [-s[1] - s[2], s[0] + a * s[1], b + s[2] * (s[0] - c)],
+        ("x", "y", "z"),
+        jacobian=lambda _t, s: [[0, -1, -1], [1, a, 0], [s[2], 0, s[0] - c]],
+        guess=[0.0, -4.6, 0.05],
+    )
+
+
+def main(directory: Path) -> None:
+    cycle = find_limit_cycle(roessler(3.5), period_guess=5.9, segments=2)
+    print(f"c = 3.5: period {cycle.period:.8f}, {cycle.stability}")
+    for value, error in zip(cycle.multipliers, cycle.multiplier_errors, strict=True):
+        print(f"  multiplier {value.real: .9f} +- {error:.1e}")
+    cycle.plot().savefig(directory / "roessler_cycle.png")
+
+    branch = continue_branch(
+        roessler, (3.5, 5.0), period_guess=5.9, parameter_name="c", steps=Steps(longest=0.2)
+    )
+    for found in branch.bifurcations:
+        print(f"{found.kind} at c = {found.parameter:.7f} +- {found.parameter_error:.1e}")
+    branch.plot("y").savefig(directory / "roessler_branch.png")
+
+    chaos = largest_lyapunov_exponent(roessler(10.0), [1.0, 1.0, 0.0], 6.0, 200)
+    print(f"c = 10: largest Lyapunov exponent {chaos.exponent:.4f} +- {chaos.error:.4f}")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1] if len(sys.argv) > 1 else "."))
