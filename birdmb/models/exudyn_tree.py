@@ -145,6 +145,9 @@ class ExudynBird:
                 except BirdmbError as error:
                     # Exudyn would rewrap it and print a banner; it is raised again afterwards.
                     self._failure = error
+                except np.linalg.LinAlgError:
+                    # The motion runs away and overflows: let it end as not finite.
+                    pass
             return np.full(n, np.nan)
 
         self.tree = self.mbs.AddObject(

@@ -1,0 +1,125 @@
+"""An independent formulation of the bird's dynamics: Newton-Euler in world axes, vector by vector.
+
+It shares nothing with the models but the bird's data: rotations come from scipy, the mass matrix
+from inverse dynamics column by column, and both wings are written out.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+MIRROR = np.diag([1.0, -1.0, 1.0])
+
+
+@dataclass
+class Frame:
+    """A frame on its way along the chain, in world axes."""
+
+    R: np.ndarray
+    origin: np.ndarray
+    velocity: np.ndarray
+    acceleration: np.ndarray
+    spin: np.ndarray
+    spin_rate: np.ndarray
+
+    def moved(self, offset):
+        r = self.R @ offset
+        return Frame(
+            self.R,
+            self.origin + r,
+            self.velocity + np.cross(self.spin, r),
+            self.acceleration
+            + np.cross(self.spin_rate, r)
+            + np.cross(self.spin, np.cross(self.spin, r)),
+            self.spin,
+            self.spin_rate,
+        )
+
+    def turned(self, axis, q, v, a):
+        e = self.R @ axis
+        return Frame(
+            self.R @ Rotation.from_rotvec(q * axis).as_matrix(),
+            self.origin,
+            self.velocity,
+            self.acceleration,
+            self.spin + v * e,
+            self.spin_rate + a * e + np.cross(self.spin, v * e),
+        )
+
+
+@dataclass
+class Body:
+    """A rigid body, the frame of its centre of mass, and the coordinates that move it."""
+
+    mass: float
+    inertia: np.ndarray
+    frame: Frame
+    path: list
+
+
+def walk(bird, q, v, a):
+    """All bodies, and for each rotational coordinate its axis and a point on it, in the world."""
+    y = np.array([0.0, 1.0, 0.0])
+    still = np.zeros(3)
+    start = Frame(np.eye(3), *(np.array([c[0], 0.0, c[1]]) for c in (q, v, a)), still, still)
+    trunk = start.turned(y, q[2], v[2], a[2])
+    axes = {2: (y, start.origin)}
+    bodies = [Body(bird.body.mass, np.diag([0.0, bird.body.inertia_yy, 0.0]), trunk, [2])]
+    root = np.array([bird.wing.root.x, bird.wing.root.y, bird.wing.root.z])
+    joints = len(bird.joints)
+    for side, first in ((np.eye(3), 3), (MIRROR, 3 + joints)):
+        frame, path = trunk.moved(side @ root), [2]
+        for bone in ("humerus", "forearm", "hand"):
+            segment = getattr(bird.segments, bone)
+            for j, joint in enumerate(bird.joints):
+                if joint.segment != bone:
+                    continue
+                k = first + j
+                axis = np.linalg.det(side) * side @ np.array(joint.axis)
+                axes[k] = (frame.R @ axis, frame.origin)
+                frame = frame.turned(axis, q[k], v[k], a[k])
+                path = [*path, k]
+            at_centre = frame.moved(side @ np.array(segment.centre_of_mass))
+            inertia = side @ np.array(segment.inertia) @ side
+            bodies.append(Body(segment.mass, inertia, at_centre, path))
+            frame = frame.moved(side @ np.array([0.0, segment.length, 0.0]))
+    return bodies, axes
+
+
+def inverse_dynamics(bird, q, v, a):
+    """Generalised forces (n,) that coordinates with these accelerations need against gravity."""
+    bodies, axes = walk(bird, q, v, a)
+    forces = np.zeros(len(q))
+    for body in bodies:
+        f, R = body.frame, body.frame.R
+        force = body.mass * (f.acceleration - np.array([0.0, 0.0, bird.gravity]))
+        inertia = R @ body.inertia @ R.T
+        moment = inertia @ f.spin_rate + np.cross(f.spin, inertia @ f.spin)
+        forces[0] += force[0]
+        forces[1] += force[2]
+        for k in body.path:
+            axis, point = axes[k]
+            forces[k] += axis @ (moment + np.cross(f.origin - point, force))
+    return forces
+
+
+def mass_matrix(bird, q):
+    """Mass matrix (n, n), column by column from inverse dynamics at rest."""
+    zero = np.zeros(len(q))
+    rest = inverse_dynamics(bird, q, zero, zero)
+    return np.column_stack([inverse_dynamics(bird, q, zero, e) - rest for e in np.eye(len(q))])
+
+
+def momentum(bird, q, v):
+    """Linear momentum (3,) and angular momentum about the common centre of mass (3,)."""
+    bodies, _ = walk(bird, q, v, np.zeros(len(q)))
+    total = sum(b.mass for b in bodies)
+    centre = sum(b.mass * b.frame.origin for b in bodies) / total
+    linear = sum(b.mass * b.frame.velocity for b in bodies)
+    angular = np.zeros(3)
+    for b in bodies:
+        R = b.frame.R
+        angular += R @ b.inertia @ R.T @ b.frame.spin
+        angular += np.cross(b.frame.origin - centre, b.mass * b.frame.velocity)
+    return linear, angular
