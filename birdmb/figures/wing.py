@@ -88,7 +88,7 @@ def wing_phases(cycle: FlightCycle) -> Figure:
 
 def draw_wing_phases(figure: Figure | SubFigure, cycle: FlightCycle, views: Sequence[View]) -> None:
     """Draw the wings at four phases, a row for each view, all on one scale of length and colour."""
-    poses = [_pose(cycle, phase) for phase in _PHASES]
+    poses = _poses(cycle)
     norm = CenteredNorm(0.0, max(float(np.abs(p.circulation).max()) for p in poses))
     boxes = [_box(view, poses) for view in views]
     heights = [box[1][1] - box[1][0] for box in boxes]
@@ -119,17 +119,16 @@ def draw_wing_phases(figure: Figure | SubFigure, cycle: FlightCycle, views: Sequ
     _scale_bar(grid[-1, 0])
 
 
-def _pose(cycle: FlightCycle, phase: float) -> Pose:
+def _poses(cycle: FlightCycle) -> list[Pose]:
     model = model_of(cycle)
-    t = cycle.start_time + phase * cycle.period
-    x = cycle.trajectory([t]).states[0]
-    angles, _ = model.joint_motion(t, x)
-    return Pose(
-        phase,
-        wing_outline(model.wing, angles, model.bird.wing.resolved_discretisation),
-        model.loads(t, x).circulation,
-        _motion(cycle, t),
-    )
+    discretisation = model.bird.wing.resolved_discretisation
+    times = cycle.start_time + np.array(_PHASES) * cycle.period
+    poses = []
+    for phase, t, x in zip(_PHASES, times, cycle.trajectory(times).states, strict=True):
+        angles, _ = model.joint_motion(t, x)
+        outline = wing_outline(model.wing, angles, discretisation)
+        poses.append(Pose(phase, outline, model.loads(t, x).circulation, _motion(cycle, t)))
+    return poses
 
 
 def _motion(cycle: FlightCycle, t: float) -> str:

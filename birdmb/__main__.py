@@ -1,0 +1,5 @@
+"""`python -m birdmb`: the command line."""
+
+from birdmb.cli import main
+
+main()

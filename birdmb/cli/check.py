@@ -1,0 +1,115 @@
+"""The command `birdmb check`: what bird a topology file describes, and what to beware of."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from rich.console import Console
+from rich.padding import Padding
+from rich.table import Table
+
+from birdmb.cli.birds import requested_bird
+from birdmb.cli.inertia import spring_of
+from birdmb.cli.progress import Progress
+from birdmb.cli.report import table_of
+from birdmb.cli.warnings import warnings_on
+from birdmb.topology import BONES, Bird
+from birdmb.wing.arrays import wing_arrays
+from birdmb.wing.outline import wing_outline
+
+
+def run(topology: Path, assignments: Sequence[str]) -> None:
+    """Validate a bird, print what it is, and warnings."""
+    bird = requested_bird(topology, assignments)
+    progress = Progress(Console(stderr=True))
+    with progress.shown():
+        progress.doing("measuring the wing")
+        tables = [_bird(bird), _segments(bird), _joints(bird)]
+        if bird.compliant_joints:
+            tables.append(_springs(bird))
+        warnings = warnings_on(bird)
+    console = Console()
+    for table in tables:
+        console.print(Padding(table, (1, 0, 0, 0)))
+    console.print()
+    for warning in warnings:
+        console.print(f"Warning: {warning}", style="yellow", highlight=False, markup=False)
+    if not warnings:
+        console.print("No warnings.", style="green")
+
+
+def _bird(bird: Bird) -> Table:
+    table = table_of(bird.name, "quantity", "value", "unit", numbers=(1,))
+    span, area = _span_and_area(bird)
+    numbers = bird.wing.resolved_discretisation
+    weight = bird.total_mass * bird.gravity
+    rows = (
+        ("mass of the whole bird", f"{bird.total_mass:.6g}", "kg"),
+        ("mass of the body", f"{bird.body.mass:.6g}", "kg"),
+        ("pitch inertia of the body", f"{bird.body.inertia_yy:.4g}", "kg m2"),
+        ("span, joints at zero", f"{span:.3f}", "m"),
+        ("wing area, joints at zero", f"{area:.4f}", "m2"),
+        ("wing loading", f"{weight / area:.1f}", "N/m2"),
+        ("wingbeat frequency", f"{bird.gait.frequency:.4g}", "Hz"),
+        ("elements per wing", f"{numbers.elements}", f"{numbers.scheme}"),
+    )
+    for row in rows:
+        table.add_row(*row)
+    return table
+
+
+def _span_and_area(bird: Bird) -> tuple[float, float]:
+    """Span (m) and area (m2) of the wings stretched out, with the gap over the body."""
+    outline = wing_outline(
+        wing_arrays(bird), np.zeros(len(bird.joints)), bird.wing.resolved_discretisation
+    )
+    panels = outline.panels
+    diagonals = np.cross(panels[:, 2] - panels[:, 0], panels[:, 3] - panels[:, 1])
+    area = 2.0 * float(np.linalg.norm(diagonals, axis=1).sum() / 2.0)
+    return 2.0 * float(outline.leading[:, 1].max()), area
+
+
+def _segments(bird: Bird) -> Table:
+    table = table_of("Segments of one wing", "segment", "length, m", "mass, kg", numbers=(1, 2))
+    for bone in BONES:
+        segment = getattr(bird.segments, bone)
+        table.add_row(bone, f"{segment.length:.4g}", f"{segment.mass:.4g}")
+    return table
+
+
+def _joints(bird: Bird) -> Table:
+    table = table_of(
+        "Joints from the body outwards; drivers in degrees",
+        "joint", "segment", "mode", "offset", "amplitude", "phase",
+        numbers=(3, 4, 5),
+    )  # fmt: skip
+    for joint in bird.joints:
+        angles = (joint.offset, joint.amplitude, joint.phase)
+        table.add_row(
+            joint.name,
+            joint.segment,
+            joint.mode,
+            *(f"{np.degrees(angle):.2f}" for angle in angles),
+        )
+    return table
+
+
+def _springs(bird: Bird) -> Table:
+    table = table_of(
+        "Compliant joints: stiffness, damping, moved inertia, natural frequency without air",
+        "joint", "k, N m/rad", "C, N m s/rad", "I, kg m2", "swings at",
+        numbers=(1, 2, 3, 4),
+    )  # fmt: skip
+    for joint in bird.compliant_joints:
+        spring = spring_of(bird, joint)
+        frequency = "-" if spring.inertia == 0 else f"{spring.frequency:.3g} Hz"
+        table.add_row(
+            joint.name,
+            f"{spring.stiffness:.4g}",
+            f"{spring.damping:.4g}",
+            f"{spring.inertia:.3g}",
+            frequency,
+        )
+    return table

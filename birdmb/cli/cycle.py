@@ -1,0 +1,121 @@
+"""The command `birdmb cycle`."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, redirect_stdout
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, cast
+
+from rich.console import Console
+
+from birdmb.cli.birds import requested_bird
+from birdmb.cli.files import prepare, remove_drafts, write_results
+from birdmb.cli.interrupt import ending_at_once
+from birdmb.cli.outcome import InputError, SearchFailed
+from birdmb.cli.progress import Progress
+from birdmb.cli.report import print_report
+from birdmb.cli.results import finite, result_object
+from birdmb.orbits import ConvergenceError, find_limit_cycle
+
+if TYPE_CHECKING:
+    from birdmb.models import FlightCycle
+    from birdmb.models.multibody import MultibodyModel
+    from birdmb.models.rigid import RigidModel
+    from birdmb.orbits.newton import SolverMethod
+    from birdmb.topology import Bird
+
+
+@dataclass(frozen=True)
+class Search:
+    """What the options say about model and search; see `find_limit_cycle`."""
+
+    model: str
+    segments: int
+    tolerance: float
+    max_iterations: int
+    method: SolverMethod
+    steps_per_beat: int | None
+
+
+def run(
+    topology: Path, assignments: Sequence[str], search: Search, *, out: Path | None, as_json: bool
+) -> None:
+    """Find the limit cycle, report it on standard output and write it into `out`."""
+    if not 0 < search.tolerance < math.inf:
+        raise InputError(f"--tolerance must be positive, not {search.tolerance:g}.")
+    bird = requested_bird(topology, assignments)
+    if out is not None:
+        prepare(out)
+    progress = Progress(Console(stderr=True))
+
+    def tidy() -> None:
+        progress.stop()
+        if out is not None:
+            remove_drafts(out)
+
+    with ending_at_once(tidy), _only_results_on_stdout(), progress.shown():
+        cycle = _found(bird, search, progress)
+        progress.doing("loads and power over the beat")
+        found = result_object(cycle, search.model)
+        written = [] if out is None else write_results(cycle, out, progress)
+    if as_json:
+        json.dump(
+            {**found, "files": list(map(str, written))}, sys.stdout, allow_nan=False, indent=2
+        )
+        sys.stdout.write("\n")
+    else:
+        print_report(Console(), cycle)
+        for path in written:
+            progress.line(f"wrote {path}")
+
+
+def _found(bird: Bird, search: Search, progress: Progress) -> FlightCycle:
+    model = _model(bird, search)
+    progress.line(
+        f"{bird.name}, {search.model} model: {len(model.state_names)} states, "
+        f"wingbeat of {bird.period:.4g} s"
+    )
+    progress.doing("looking for a first guess")
+    try:
+        cycle = find_limit_cycle(
+            model,
+            segments=search.segments,
+            tolerance=search.tolerance,
+            max_iterations=search.max_iterations,
+            method=search.method,
+            callback=progress.iteration,
+        )
+    except ConvergenceError as error:
+        raise SearchFailed(
+            str(error),
+            {
+                "bird": bird.name,
+                "model": search.model,
+                "x": {n: finite(v) for n, v in zip(model.state_names, error.best_x, strict=True)},
+                "residual": finite(error.residual),
+                "iterations": max(len(error.history) - 1, 0),
+            },
+        ) from error
+    return cast("FlightCycle", cycle)
+
+
+def _model(bird: Bird, search: Search) -> RigidModel | MultibodyModel:
+    if search.model == "rigid":
+        from birdmb.models.rigid import RigidModel  # noqa: PLC0415
+
+        return RigidModel(bird, steps_per_beat=search.steps_per_beat)
+    from birdmb.models.multibody import MultibodyModel  # noqa: PLC0415
+
+    return MultibodyModel(bird, steps_per_beat=search.steps_per_beat)
+
+
+@contextmanager
+def _only_results_on_stdout() -> Iterator[None]:
+    """Send what libraries print on the way, as Exudyn does, to standard error."""
+    with redirect_stdout(sys.stderr):
+        yield

@@ -1,0 +1,60 @@
+"""How a command ends: its exit status, and errors as one sentence each."""
+
+import json
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import typer
+
+from birdmb.errors import BirdmbError, OrbitError, StateError
+
+NO_CYCLE = 1
+BAD_INPUT = 2
+INTERRUPTED = 130
+INTERRUPTED_LINE = "Interrupted."
+
+
+class InputError(BirdmbError):
+    """The command line asks for something that cannot be done."""
+
+
+class SearchFailed(BirdmbError):  # noqa: N818 - it reports an outcome
+    """The search found no limit cycle; `reached` is what it had, fit for JSON."""
+
+    def __init__(self, message: str, reached: dict[str, object]) -> None:
+        super().__init__(message, reached)
+        self.reached = reached
+
+    def __str__(self) -> str:
+        """The sentence alone."""
+        return str(self.args[0])
+
+
+@contextmanager
+def reported(*, as_json: bool = False) -> Iterator[None]:
+    """Turn every deliberate error into a sentence on standard error and an exit status.
+
+    `as_json` puts an object with the key "error" on standard output besides.
+    """
+    try:
+        yield
+    except KeyboardInterrupt:
+        typer.echo(INTERRUPTED_LINE, err=True)
+        raise typer.Exit(INTERRUPTED) from None
+    except BirdmbError as error:
+        sentence = " ".join(str(error).split())  # arrays in it may have been broken over lines
+        typer.echo(f"Error: {sentence}", err=True)
+        if as_json:
+            reached = error.reached if isinstance(error, SearchFailed) else {}
+            json.dump({"error": sentence, **reached}, sys.stdout, indent=2, allow_nan=False)
+            typer.echo()
+        raise typer.Exit(_status(error)) from None
+
+
+def _status(error: BirdmbError) -> int:
+    # A wrong option, such as a negative tolerance, is an OrbitError by its origin.
+    if isinstance(error, ValueError):
+        return BAD_INPUT
+    failed = isinstance(error, OrbitError | StateError | SearchFailed)
+    return NO_CYCLE if failed else BAD_INPUT

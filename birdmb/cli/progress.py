@@ -1,0 +1,98 @@
+"""What a search is doing, line by line on standard error."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from numba.core import event
+from rich.console import Console
+
+if TYPE_CHECKING:
+    from birdmb.orbits.newton import Iteration
+
+_HEADING = f"{'iteration':>9}  {'closure error':>13}  {'step':>9}  {'damping':>9}"
+
+
+class Progress:
+    """Lines of a search as it goes; on a terminal with a line below that says what is going on."""
+
+    def __init__(self, console: Console) -> None:
+        self._console = console
+        self._status = console.status("") if console.is_terminal else None
+
+    @contextmanager
+    def shown(self) -> Iterator[None]:
+        """Show progress within, and say so if kernels have to be compiled."""
+        live: AbstractContextManager[object] = self._status or nullcontext()
+        with live, event.install_listener("numba:compile", _Compilation(self)):
+            yield
+
+    def stop(self) -> None:
+        """Take the line below away, and give the terminal its cursor back."""
+        if self._status is not None:
+            self._status.stop()
+
+    def line(self, text: str, style: str = "") -> None:
+        """Write a line that stays."""
+        self._console.print(text, style=style, highlight=False, markup=False, soft_wrap=True)
+
+    def doing(self, text: str) -> None:
+        """Say what is going on now; only a terminal shows it."""
+        if self._status is not None:
+            self._status.update(f"[dim]{text}[/dim]")
+
+    def iteration(self, step: Iteration) -> None:
+        """Write a line on an accepted step of the search."""
+        if step.number == 0:
+            self.line(_HEADING, style="bold")
+            self.line(f"{0:>9}  {step.residual:>13.3e}  {'guess':>9}")
+        else:
+            self.line(
+                f"{step.number:>9}  {step.residual:>13.3e}  {step.step_length:>9.2e}  "
+                f"{step.damping:>9.3g}"
+            )
+        self.doing("searching")
+
+
+class _Compilation(event.Listener):
+    """Announces kernels that numba really compiles, which it reports; cached ones it does not."""
+
+    def __init__(self, progress: Progress) -> None:
+        self._progress = progress
+        self._depth = 0
+        self._announced = False
+        self._kernels = 0
+        self._started = 0.0
+
+    def on_start(self, event: event.Event) -> None:
+        """A kernel is going to be compiled, perhaps on the way to another one."""
+        dispatcher = event.data["dispatcher"]
+        if not dispatcher.py_func.__module__.startswith("birdmb."):
+            return
+        if not self._announced:
+            self._announced = True
+            self._progress.line(_announcement(Path(dispatcher.stats.cache_path)))
+        if self._depth == 0:
+            self._started = time.monotonic()
+        self._depth += 1
+        self._kernels += 1
+        self._progress.doing(f"compiling kernel {self._kernels}, {dispatcher.py_func.__name__}")
+
+    def on_end(self, event: event.Event) -> None:
+        """A kernel has been compiled."""
+        if not event.data["dispatcher"].py_func.__module__.startswith("birdmb."):
+            return
+        self._depth -= 1
+        if self._depth == 0:
+            self._progress.doing("searching")
+
+
+def _announcement(cache: Path) -> str:
+    """What to say before the first compilation, given the directory of the compiled kernels."""
+    if not any(cache.glob("*.nbi")):
+        return "Compiling the kernels, once per installation (about half a minute) ..."
+    return "Compiling kernels that are new or have changed since the last run ..."

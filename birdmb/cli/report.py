@@ -1,0 +1,109 @@
+"""A limit cycle as tables on a terminal."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+from rich import box
+from rich.console import Console
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
+from birdmb.cli.results import growth, verdict_sentence
+
+if TYPE_CHECKING:
+    from birdmb.models import FlightCycle
+    from birdmb.orbits.problem import HasStateUnits
+
+_STYLES = {"stable": "bold green", "unstable": "bold red", "undecided": "bold yellow"}
+_IN_DEGREES = {"rad": "°", "rad/s": "°/s"}
+
+
+def print_report(console: Console, cycle: FlightCycle) -> None:
+    """Print orbit, multipliers, flight and joints of a limit cycle, and the verdict."""
+    for table in (_orbit(cycle), _multipliers(cycle), _flight(cycle), _joints(cycle)):
+        console.print(Padding(table, (1, 0, 0, 0)))
+    console.print()
+    verdict = Text(verdict_sentence(cycle))
+    verdict.highlight_words([cycle.stability], _STYLES[cycle.stability])
+    console.print(verdict)
+
+
+def table_of(title: str, *columns: str, numbers: tuple[int, ...] = ()) -> Table:
+    """An empty table; the columns whose positions are among `numbers` are set flush right."""
+    table = Table(
+        title=title,
+        title_justify="left",
+        title_style="bold",
+        box=box.SIMPLE_HEAD,
+        show_edge=False,
+        pad_edge=False,
+    )
+    for i, column in enumerate(columns):
+        table.add_column(
+            column, justify="right" if i in numbers else "left", no_wrap=i == 0 or i in numbers
+        )
+    return table
+
+
+def _orbit(cycle: FlightCycle) -> Table:
+    title = f"Orbit at t = {cycle.start_time:g} s, closed to {cycle.residual:.1e}"
+    table = table_of(title, "state", "value", "unit", "in degrees", numbers=(1, 3))
+    units = cast("HasStateUnits", cycle.model).state_units
+    for name, value, unit in zip(cycle.state_names, cycle.x0, units, strict=True):
+        degrees = f"{np.degrees(value):.2f} {_IN_DEGREES[unit]}" if unit in _IN_DEGREES else ""
+        table.add_row(name, f"{value:.6f}", unit, degrees)
+    return table
+
+
+def _multipliers(cycle: FlightCycle) -> Table:
+    table = table_of(
+        "Floquet multipliers", "Re", "Im", "modulus", "error", "a disturbance", numbers=(0, 1, 2, 3)
+    )
+    for i, (value, error) in enumerate(
+        zip(cycle.multipliers, cycle.multiplier_errors, strict=True)
+    ):
+        table.add_row(
+            _number(value.real),
+            _number(value.imag) if value.imag else "",
+            _number(abs(value)),
+            f"{error:.0e}",
+            growth(cycle, i),
+            style="red" if abs(value) - error > 1 else None,
+        )
+    return table
+
+
+def _number(value: float) -> str:
+    return f"{value:.6f}" if abs(value) >= 1e-3 else f"{value:.1e}"
+
+
+def _flight(cycle: FlightCycle) -> Table:
+    table = table_of("Flight, mean over a beat", "quantity", "value", "unit", "", numbers=(1,))
+    rows = (
+        ("speed", f"{cycle.mean_speed:.3f}", "m/s", ""),
+        ("climb rate", f"{cycle.mean_climb_rate:+.3f}", "m/s", ""),
+        ("path angle", f"{np.degrees(cycle.path_angle):+.2f}", "°", ""),
+        ("power", f"{cycle.power:.3f}", "W", "to move the wings against the air"),
+        ("potential power", f"{cycle.potential_power:.3f}", "W", "drawn from sinking"),
+        ("corrected power", f"{cycle.corrected_power:.3f}", "W", "the sum: as if level"),
+        ("cost of transport", f"{cycle.cost_of_transport:.4f}", "", "power / (weight x speed)"),
+        ("energy imbalance", f"{cycle.energy_imbalance:.1e}", "", "a check: 0 if exact"),
+    )
+    for row in rows:
+        table.add_row(*row)
+    return table
+
+
+def _joints(cycle: FlightCycle) -> Table:
+    """Powers into the joints; the column of the drivers only where it differs."""
+    joints, drivers = cycle.joint_powers, cycle.driver_powers
+    differ = any(abs(joints[name] - drivers[name]) > 1e-9 for name in joints)
+    columns = ("joint", "joint, W", "driver, W") if differ else ("joint", "joint, W")
+    table = table_of("Power into the joints, both wings", *columns, numbers=(1, 2))
+    for name, power in (*joints.items(), ("all", sum(joints.values()))):
+        driver = drivers.get(name, sum(drivers.values()))
+        table.add_row(name, f"{power:.3f}", *([f"{driver:.3f}"] if differ else []))
+    return table

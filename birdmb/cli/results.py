@@ -1,0 +1,85 @@
+"""A limit cycle as one JSON object, and as a sentence."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from importlib.metadata import version
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from birdmb.models import FlightCycle
+    from birdmb.models.wing_model import WingModel
+
+
+def finite(value: float) -> float | None:
+    """A number fit for JSON, which has no infinity and no NaN: `None` stands for them."""
+    return float(value) if math.isfinite(value) else None
+
+
+def result_object(cycle: FlightCycle, model_name: str) -> dict[str, object]:
+    """What `birdmb cycle --json` prints, in SI units and rad: numbers, texts, lists and objects."""
+    model = cast("WingModel", cycle.model)
+    bird = model.bird
+    return {
+        "bird": bird.name,
+        "fingerprint": bird.fingerprint(),
+        "model": model_name,
+        "birdmb_version": version("birdmb"),
+        "x0": dict(zip(cycle.state_names, _numbers(cycle.x0), strict=True)),
+        "start_time": cycle.start_time,
+        "period": cycle.period,
+        "residual": cycle.residual,
+        "iterations": len(cycle.iterations) - 1,
+        "steps_per_beat": model.steps_per_beat,
+        "multipliers": [[float(m.real), float(m.imag)] for m in cycle.multipliers],
+        "multiplier_errors": _numbers(cycle.multiplier_errors),
+        "doubling_times": _numbers(cycle.doubling_times),
+        "stability": cycle.stability,
+        "verdict": verdict_sentence(cycle),
+        "mean_speed": cycle.mean_speed,
+        "mean_climb_rate": cycle.mean_climb_rate,
+        "path_angle": cycle.path_angle,
+        "power": cycle.power,
+        "potential_power": cycle.potential_power,
+        "corrected_power": cycle.corrected_power,
+        "cost_of_transport": finite(cycle.cost_of_transport),
+        "joint_powers": cycle.joint_powers,
+        "driver_powers": cycle.driver_powers,
+        "feather_power": cycle.feather_power,
+        "energy_imbalance": cycle.energy_imbalance,
+    }
+
+
+def _numbers(values: Iterable[float]) -> list[float | None]:
+    return [finite(value) for value in values]
+
+
+def growth(cycle: FlightCycle, i: int) -> str:
+    """What a disturbance in mode i does: "doubles in 0.471 s (1.9 beats)"."""
+    modulus, error = float(np.abs(cycle.multipliers[i])), float(cycle.multiplier_errors[i])
+    if abs(modulus - 1) <= error:
+        return "undecided within its error"
+    if error > 0.01 * modulus:  # too small to be told from zero: the slowest halving it may have
+        slowest = cycle.period * math.log(2) / -math.log(modulus + error) if modulus < 1 else 0.0
+        return f"halves in < {_time(slowest, cycle.period)}" if modulus < 1 else "doubles"
+    does = "doubles" if modulus > 1 else "halves"
+    return f"{does} in {_time(float(cycle.doubling_times[i]), cycle.period)}"
+
+
+def _time(seconds: float, period: float) -> str:
+    return f"{seconds:.2g} s ({seconds / period:.2g} beats)"
+
+
+def verdict_sentence(cycle: FlightCycle) -> str:
+    """Whether the bird can fly hands-off, and how fast its slowest or growing disturbance is."""
+    if cycle.stability == "unstable":
+        return f"unstable: the fastest-growing disturbance {growth(cycle, 0)}"
+    if cycle.stability == "stable":
+        return f"stable: the slowest-decaying disturbance {growth(cycle, 0)}"
+    return (
+        "undecided: the modulus of a multiplier is 1 within its error, so that the disturbance may "
+        "grow or decay"
+    )
