@@ -5,38 +5,8 @@ orbit is a fixed point of that flow (`find_limit_cycle`), and its multipliers sa
 can fly hands-off.
 """
 
-from importlib.metadata import version
+import lazy_loader
 
-from birdmb.errors import BirdmbError, OrbitError, StateError, TopologyError
-from birdmb.models import (
-    Beat,
-    Flight,
-    FlightCycle,
-    Loads,
-    MultibodyModel,
-    RigidModel,
-)
-from birdmb.orbits import ConvergenceError, LimitCycle, OdeModel, find_limit_cycle
-from birdmb.topology import Bird, load_bird
-
-__version__ = version("birdmb")
-
-__all__ = [
-    "Beat",
-    "Bird",
-    "BirdmbError",
-    "ConvergenceError",
-    "Flight",
-    "FlightCycle",
-    "LimitCycle",
-    "Loads",
-    "MultibodyModel",
-    "OdeModel",
-    "OrbitError",
-    "RigidModel",
-    "StateError",
-    "TopologyError",
-    "__version__",
-    "find_limit_cycle",
-    "load_bird",
-]
+# The names are listed in __init__.pyi and imported at their first use, so that asking the command
+# line for help does not wait for Exudyn and numba.
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

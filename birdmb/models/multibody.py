@@ -1,6 +1,7 @@
 """The multibody bird in Exudyn, its joints prescribed or compliant (MODEL section 8)."""
 
 from functools import cached_property, lru_cache
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -24,9 +25,18 @@ from birdmb.models.wing_model import (
 from birdmb.topology import Bird
 from birdmb.wing.shape import WingShape, wing_shape
 
-_SHAPES_KEPT = 8192
+_INSTANTS_KEPT = 8192
 _JOINT_SCALE = (0.5, 10.0)  # rad, rad/s
 _BEATS_TO_SETTLE = 6
+
+
+class Instant(NamedTuple):
+    """What an instant alone determines."""
+
+    angles: FloatArray  # (J,) rad, of the drivers
+    rates: FloatArray  # (J,) rad/s
+    accelerations: FloatArray  # (n,) of the prescribed coordinates, 0 elsewhere
+    shape: WingShape | None  # with the joints that turn the wing as a whole at zero
 
 
 class MultibodyModel(WingModel):
@@ -50,8 +60,9 @@ class MultibodyModel(WingModel):
         self._compliant = np.array([joint.mode == "compliant" for joint in bird.joints], dtype=bool)
         self._stiffness = np.array([j.stiffness or 0.0 for j in bird.joints]) * self._compliant
         self._damping = np.array([j.damping or 0.0 for j in bird.joints]) * self._compliant
-        self._turning = self._joints_that_turn_the_wing_as_a_whole()
-        self._shape = lru_cache(maxsize=_SHAPES_KEPT)(self._shape_at)
+        self.turning = self._joints_that_turn_the_wing_as_a_whole()
+        # Every trajectory and every perturbation of it asks for the same instants again.
+        self.instant = lru_cache(maxsize=_INSTANTS_KEPT)(self._make_instant)
 
     @cached_property
     def steps_per_beat(self) -> int:
@@ -80,7 +91,7 @@ class MultibodyModel(WingModel):
     def flow(self, x0: npt.ArrayLike, t0: float, t1: float) -> FloatArray:
         """State (n,) at t1 (s) of the flight through x0 (n,) at t0; raises `StateError`."""
         steps = self._steps(t0, t1)
-        q, v = self._exudyn.integrate(*self._coordinates(t0, np.asarray(x0, float)), t0, t1, steps)
+        q, v = self._exudyn.integrate(*self.coordinates(t0, np.asarray(x0, float)), t0, t1, steps)
         return self._state(q, v, f"between t = {t0:.4g} and {t1:.4g} s")
 
     def trajectory(
@@ -94,7 +105,7 @@ class MultibodyModel(WingModel):
         for i, t in enumerate(grid):
             if i > 0:
                 q, v = self._exudyn.integrate(
-                    *self._coordinates(grid[i - 1], states[i - 1]), grid[i - 1], t, 1
+                    *self.coordinates(grid[i - 1], states[i - 1]), grid[i - 1], t, 1
                 )
                 states[i] = self._state(q, v, f"before t = {t:.4g} s")
             rates[i] = self.rhs(t, states[i])
@@ -104,7 +115,7 @@ class MultibodyModel(WingModel):
     def rhs(self, t: float, x: npt.ArrayLike) -> FloatArray:
         """Rates (n,) of the states at t (s), by exact partition of the equations of motion."""
         state = np.asarray(x, dtype=float)
-        _, v = self._coordinates(t, state)
+        _, v = self.coordinates(t, state)
         a, _ = self.accelerations(t, state)
         _, _, q, theta = state[:4]
         u_rate, w_rate = body_velocity(theta, a[0], a[1])
@@ -120,10 +131,10 @@ class MultibodyModel(WingModel):
         Coordinates X, Z (m), pitch (rad), right and left joints (rad). The forces (N, N m) are
         those that hold the prescribed joints to their drivers, without springs and dampers.
         """
-        q, v = self._coordinates(t, np.asarray(x, dtype=float))
+        q, v = self.coordinates(t, np.asarray(x, dtype=float))
         mass, left = self._exudyn.mass_and_forces(t, q, v)
-        a = self._driver_accelerations(t)
-        free = ~self._prescribed
+        a = self.driver_accelerations(t).copy()
+        free = ~self.prescribed
         a[free] = np.linalg.solve(
             mass[np.ix_(free, free)], -left[free] - mass[np.ix_(free, ~free)] @ a[~free]
         )
@@ -139,7 +150,7 @@ class MultibodyModel(WingModel):
         state = np.asarray(x, dtype=float)
         _, forces = self.accelerations(t, state)
         right = forces[BODY_COORDINATES : BODY_COORDINATES + self._compliant.size]
-        return right + self._spring_torques(t, *self.joint_motion(t, state))
+        return right + self._spring_torques(self.instant(t), *self.joint_motion(t, state))
 
     def initial_guess(self) -> FloatArray:
         """State (n,) at t = 0: the rigid bird's, with the compliant joints settled about it.
@@ -149,10 +160,10 @@ class MultibodyModel(WingModel):
         start = self.driven_state()
         if not self._compliant.any():
             return start
-        held = self._prescribed.copy()
+        held = self.prescribed.copy()
         held[:BODY_COORDINATES] = True
-        frozen = ExudynBird(self.bird, self._forces, held, self._driver_accelerations)
-        q, v = self._coordinates(0.0, start)
+        frozen = ExudynBird(self.bird, self._forces, held, self.driver_accelerations)
+        q, v = self.coordinates(0.0, start)
         T = self.bird.period
         for _ in range(_BEATS_TO_SETTLE):
             q, v = frozen.integrate(q, v, 0.0, T, self.steps_per_beat)
@@ -170,15 +181,16 @@ class MultibodyModel(WingModel):
         return RigidModel(self.bird).initial_guess()
 
     @cached_property
-    def _prescribed(self) -> BoolArray:
+    def prescribed(self) -> BoolArray:
+        """Which of the tree's coordinates (n,) follow a driver."""
         joints = ~self._compliant
         return np.concatenate([np.zeros(BODY_COORDINATES, bool), joints, joints])
 
     @cached_property
     def _exudyn(self) -> ExudynBird:
-        return ExudynBird(self.bird, self._forces, self._prescribed, self._driver_accelerations)
+        return ExudynBird(self.bird, self._forces, self.prescribed, self.driver_accelerations)
 
-    def _coordinates(self, t: float, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def coordinates(self, t: float, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Coordinates and velocities (n,) of the tree, with X = Z = 0, of state x at time t."""
         u, w, q, theta = x[:4]
         c, s = np.cos(theta), np.sin(theta)
@@ -209,15 +221,20 @@ class MultibodyModel(WingModel):
             return 0
         return shoulder if not self.wing.twist[:shoulder].any() else 0
 
-    def _shape_at(self, t: float) -> WingShape:
-        """The wing at time t (s) with the joints that turn it as a whole at zero."""
-        angles, rates, _ = driven(self.wing, t)
-        angles[: self._turning] = 0.0
-        rates[: self._turning] = 0.0
-        return self._checked_shape(t, angles, rates)
+    def _make_instant(self, t: float) -> Instant:
+        angles, rates, accelerations = driven(self.wing, t)
+        still = np.arange(angles.size) < self.turning
+        return Instant(
+            angles,
+            rates,
+            np.concatenate([np.zeros(BODY_COORDINATES), accelerations, accelerations]),
+            self._shape(t, np.where(still, 0.0, angles), np.where(still, 0.0, rates))
+            if self.turning
+            else None,
+        )
 
-    def _checked_shape(self, t: float, angles: FloatArray, rates: FloatArray) -> WingShape:
-        shape = wing_shape(self.wing, angles, rates, *self._discretisation)
+    def _shape(self, t: float, angles: FloatArray, rates: FloatArray) -> WingShape:
+        shape = wing_shape(self.wing, angles, rates, *self.discretisation)
         if not shape.converged:
             raise lifting_line_lost(self.bird, t, angles)
         return shape
@@ -229,11 +246,11 @@ class MultibodyModel(WingModel):
         joints = self._compliant.size
         angles = q[BODY_COORDINATES : BODY_COORDINATES + joints]
         rates = v[BODY_COORDINATES : BODY_COORDINATES + joints]
-        shape = self._shape(t) if self._turning else self._checked_shape(t, angles, rates)
+        instant = self.instant(t)
         body, torques = wing_forces(
             self.wing,
-            shape,
-            self._turning,
+            instant.shape or self._shape(t, angles, rates),
+            self.turning,
             angles,
             rates,
             self.bird.air.density,
@@ -242,14 +259,20 @@ class MultibodyModel(WingModel):
             v[1],
             v[2],
         )
-        torques += self._spring_torques(t, angles, rates)
+        torques += self._spring_torques(instant, angles, rates)
         return np.concatenate([body, torques, torques])
 
-    def _spring_torques(self, t: float, angles: FloatArray, rates: FloatArray) -> FloatArray:
-        driver, driver_rates, _ = driven(self.wing, t)
-        torques = self._stiffness * (driver - angles) + self._damping * (driver_rates - rates)
-        return np.asarray(torques)
+    def spring_forces(self, t: float, q: FloatArray, v: FloatArray) -> FloatArray:
+        """Generalised forces (n,) of springs and dampers alone."""
+        joints = slice(BODY_COORDINATES, BODY_COORDINATES + self._compliant.size)
+        torques = self._spring_torques(self.instant(t), q[joints], v[joints])
+        return np.concatenate([np.zeros(BODY_COORDINATES), torques, torques])
 
-    def _driver_accelerations(self, t: float) -> FloatArray:
-        _, _, accelerations = driven(self.wing, t)
-        return np.concatenate([np.zeros(BODY_COORDINATES), accelerations, accelerations])
+    def _spring_torques(self, driver: Instant, angles: FloatArray, rates: FloatArray) -> FloatArray:
+        torques = self._stiffness * (driver.angles - angles)
+        torques += self._damping * (driver.rates - rates)
+        return torques
+
+    def driver_accelerations(self, t: float) -> FloatArray:
+        """Accelerations (n,) that drivers give to the prescribed coordinates; 0 elsewhere."""
+        return self.instant(t).accelerations

@@ -71,7 +71,7 @@ class RigidModel(WingModel):
     def initial_guess(self) -> FloatArray:
         """State (4,) in which the loads, averaged over a beat, come closest to balance."""
         times = np.linspace(0.0, self.bird.period, 17)[:-1]
-        wing = prescribed_wing(self.wing, times, *self._discretisation)
+        wing = prescribed_wing(self.wing, times, *self.discretisation)
         return mean_trim(self.bird, wing)
 
     def _integrate(
@@ -97,7 +97,7 @@ class RigidModel(WingModel):
 
     def _tabulate(self, t0: float, duration: float, steps: int) -> PrescribedWing:
         times = t0 + duration * np.arange(2 * steps + 1) / max(2 * steps, 1)
-        wing = prescribed_wing(self.wing, times, *self._discretisation)
+        wing = prescribed_wing(self.wing, times, *self.discretisation)
         if not wing.converged.all():
             t = float(times[np.argmin(wing.converged)])
             raise lifting_line_lost(self.bird, t, driven(self.wing, t)[0])

@@ -43,7 +43,7 @@ class WingModel(ABC):
         self.period: float | None = bird.period
         self._steps_wanted = steps_per_beat
         numbers = bird.wing.resolved_discretisation
-        self._discretisation = (numbers.elements, numbers.rounding, numbers.scheme == "one-step")
+        self.discretisation = (numbers.elements, numbers.rounding, numbers.scheme == "one-step")
 
     @cached_property
     def steps_per_beat(self) -> int:
@@ -81,7 +81,7 @@ class WingModel(ABC):
         if not np.isfinite(state).all():
             raise StateError(f"loads asked for at t = {t:.6g} s in a state that is not finite.")
         angles, rates = self.joint_motion(t, state)
-        shape = wing_shape(self.wing, angles, rates, *self._discretisation)
+        shape = wing_shape(self.wing, angles, rates, *self.discretisation)
         if not shape.converged:
             raise lifting_line_lost(self.bird, t, angles)
         elements = place_elements(shape, self.wing.root)

@@ -7,9 +7,9 @@ paired with themselves; the pairs between follow from
     c_j . (P_{j+1} - P_{j-1}) = 0,
 
 solved for one shift d_j a station, by which the chord turns about P_j: A_j = A(s_j - d_j) and
-B_j = B(s_j + 3 d_j), with A and B the rounded edges. The system is tridiagonal and Newton's method
-started at d = 0 needs some five steps, so the line is a function of the joint angles alone, as
-smooth as the edges are.
+B_j = B(s_j + 3 d_j), with A and B the rounded edges. The system is tridiagonal; Newton's method
+starts at d = 0 on few stations, which are then doubled, so the line is a function of the joint
+angles alone, as smooth as the edges are.
 """
 
 from typing import NamedTuple
@@ -21,6 +21,9 @@ from birdmb._typing import Array, ComplexArray, FloatArray
 from birdmb.wing.rounded import RoundedPolyline, point, rounded_polyline, tangent
 
 MAX_NEWTON_STEPS = 40
+SHORTEST_DAMPING = 1e-3
+COARSEST = 16
+COARSE_TOLERANCE = 1e-3
 # Of the shift, a fraction of the wing's length: well below anything the loads can tell.
 SHIFT_TOLERANCE = 1e-11
 
@@ -38,10 +41,11 @@ class PairedEdges(NamedTuple):
 
 @njit(cache=True)
 def station_parameters(n: int) -> FloatArray:
-    """Parameters in [0, 1] of n stations, drawn together towards the wing tip by a sine.
+    """Parameters in [0, 1] of n stations, crowded towards shoulder and tip like a cosine.
 
-    The circulation falls to zero at the tip with a steep slope; the sine makes the trapezoidal sums
-    over the trailing vortices there as accurate as elsewhere (Glauert's substitution).
+    The circulation falls to zero at the tip, and leaves the constant over the body at the shoulder,
+    like a square root; in the cosine's argument it is smooth, and sums over the trailing vortices
+    are as accurate there as elsewhere (Glauert's substitution).
     """
     return 0.5 * (1.0 - np.cos(np.pi * np.arange(n) / (n - 1)))
 
@@ -124,6 +128,34 @@ def _newton_step(
 
 
 @njit(cache=True)
+def _solve_shifts(
+    leading: RoundedPolyline,
+    trailing: RoundedPolyline,
+    s: FloatArray,
+    guess: FloatArray,
+    tolerance: float,
+) -> tuple[FloatArray, bool]:
+    """Damped Newton iteration for the shifts; also whether it reached the tolerance."""
+    shift = guess
+    A, B = _pair(leading, trailing, s, shift)
+    F = _obliqueness(A, B)
+    for _ in range(MAX_NEWTON_STEPS):
+        step = _newton_step(leading, trailing, s, shift, A, B, F)
+        before = np.sum(F * F)
+        damping = 1.0
+        while True:
+            A, B = _pair(leading, trailing, s, shift + damping * step)
+            F = _obliqueness(A, B)
+            if np.sum(F * F) <= before or damping < SHORTEST_DAMPING:
+                break
+            damping *= 0.5
+        shift = shift + damping * step
+        if np.max(np.abs(step)) < tolerance:
+            return shift, True
+    return shift, False
+
+
+@njit(cache=True)
 def orthogonal_line(
     leading_edge: ComplexArray, trailing_edge: ComplexArray, stations: int, rounding: float
 ) -> PairedEdges:
@@ -132,31 +164,28 @@ def orthogonal_line(
     The imaginary parts of the vertices are taken for infinitesimal rates (complex step): the last
     Newton step is repeated with them, which by the implicit function theorem is exact.
     """
-    s = station_parameters(stations)
-    lead = rounded_polyline(leading_edge.real.copy(), rounding)
-    trail = rounded_polyline(trailing_edge.real.copy(), rounding)
-    shift = np.zeros(stations)
-    A, B = _pair(lead, trail, s, shift)
-    F = _obliqueness(A, B)
-    converged = False
-    for _ in range(MAX_NEWTON_STEPS):
-        step = _newton_step(lead, trail, s, shift, A, B, F)
-        before = np.sum(F * F)
-        damping = 1.0
-        while True:
-            A, B = _pair(lead, trail, s, shift + damping * step)
-            F = _obliqueness(A, B)
-            if np.sum(F * F) <= before or damping < 1e-3:
-                break
-            damping *= 0.5
-        shift = shift + damping * step
-        if np.max(np.abs(step)) < SHIFT_TOLERANCE:
-            converged = True
-            break
-    lead_c = rounded_polyline(leading_edge, rounding)
-    trail_c = rounded_polyline(trailing_edge, rounding)
-    shift_c = shift.astype(np.complex128)
-    A_c, B_c = _pair(lead_c, trail_c, s, shift_c)
-    rate = _newton_step(lead, trail, s, shift, A, B, _obliqueness(A_c, B_c).imag.copy())
-    A_c, B_c = _pair(lead_c, trail_c, s, shift_c + 1j * rate)
-    return PairedEdges(A_c, B_c, converged)
+    leading = rounded_polyline(leading_edge.real.copy(), rounding)
+    trailing = rounded_polyline(trailing_edge.real.copy(), rounding)
+    # On many stations Newton's method from zero may end on a line that doubles back on itself; a
+    # coarse line, refined, leads to the plain one.
+    n = min(COARSEST, stations)
+    s = station_parameters(n)
+    shift, _ = _solve_shifts(leading, trailing, s, np.zeros(n), COARSE_TOLERANCE)
+    while n < stations:
+        n = min(2 * n, stations)
+        finer = station_parameters(n)
+        shift = np.interp(finer, s, shift)
+        s = finer
+        if n < stations:
+            shift, _ = _solve_shifts(leading, trailing, s, shift, COARSE_TOLERANCE)
+    shift, converged = _solve_shifts(leading, trailing, s, shift, SHIFT_TOLERANCE)
+
+    A, B = _pair(leading, trailing, s, shift)
+    moving_leading = rounded_polyline(leading_edge, rounding)
+    moving_trailing = rounded_polyline(trailing_edge, rounding)
+    moving_shift = shift.astype(np.complex128)
+    moving_A, moving_B = _pair(moving_leading, moving_trailing, s, moving_shift)
+    residual_rate = _obliqueness(moving_A, moving_B).imag.copy()
+    moving_shift += 1j * _newton_step(leading, trailing, s, shift, A, B, residual_rate)
+    moving_A, moving_B = _pair(moving_leading, moving_trailing, s, moving_shift)
+    return PairedEdges(moving_A, moving_B, converged)

@@ -114,7 +114,7 @@ def test_symmetric_pairs_of_joints_stay_symmetric(ibis_compliant):
     """Left and right are integrated apart; their difference is round-off."""
     model = birdmb.MultibodyModel(ibis_compliant)
     x0 = model.initial_guess()
-    q, v = model._exudyn.integrate(*model._coordinates(0.0, x0), 0.0, 0.25, 120)
+    q, v = model._exudyn.integrate(*model.coordinates(0.0, x0), 0.0, 0.25, 120)
     n = len(ibis_compliant.joints)
     right, left = slice(BODY, BODY + n), slice(BODY + n, None)
     np.testing.assert_allclose(q[right], q[left], atol=1e-10)
@@ -124,7 +124,7 @@ def test_symmetric_pairs_of_joints_stay_symmetric(ibis_compliant):
 def test_driven_inertia_keeps_prescribed_joints_on_their_drivers(ibis):
     model = birdmb.MultibodyModel(ibis)
     x0 = model.initial_guess()
-    q, v = model._exudyn.integrate(*model._coordinates(0.0, x0), 0.0, 0.25, 60)
+    q, v = model._exudyn.integrate(*model.coordinates(0.0, x0), 0.0, 0.25, 60)
     angles, rates, _ = driven(model.wing, 0.25)
     np.testing.assert_allclose(q[BODY : BODY + 6], angles, atol=1e-8)
     np.testing.assert_allclose(v[BODY : BODY + 6], rates, atol=1e-6)

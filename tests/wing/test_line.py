@@ -153,9 +153,19 @@ def test_loads_pass_over_smoothly_from_bone_to_bone(wing):
 
 
 def test_a_line_that_cannot_be_found_is_told(ibis):
-    """With sharp corners on fine stations and the wing folded up, no such line is found."""
+    """With the wing folded up on itself, most phases of the beat have no such line."""
     folded = wing_arrays(
         ibis.with_values({"elbow.sweep.offset_deg": 130, "wrist.sweep.offset_deg": -150})
     )
-    pairs = orthogonal_line(*edges_at(folded, 0.0), 192, 0.05)
-    assert not pairs.converged
+    lines = [orthogonal_line(*edges_at(folded, t), 128, ROUNDING) for t in PHASES]
+    assert not all(pairs.converged for pairs in lines)
+
+
+def test_a_fine_line_is_the_coarse_one_refined(wing):
+    """Not one that doubles back on itself, into which Newton's method from zero falls here."""
+    for t in PHASES:
+        fine, coarse = (orthogonal_line(*edges_at(wing, t), n, ROUNDING) for n in (384, 64))
+        assert fine.converged
+        tips = [(0.75 * p.leading + 0.25 * p.trailing).real for p in (fine, coarse)]
+        lengths = [np.linalg.norm(np.diff(line, axis=0), axis=1).sum() for line in tips]
+        assert lengths[0] == pytest.approx(lengths[1], rel=2e-3)

@@ -1,0 +1,124 @@
+"""What a load evaluation, an integration and a limit cycle cost: `python benchmarks/speed.py`.
+
+Best of several runs with compiled kernels. Times depend on the machine; ratios within a run and
+counts of evaluations do not, or hardly.
+"""
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+import birdmb
+from birdmb.aerodynamics.prescribed import at_phase, prescribed_wing, resultant_and_derivatives
+from birdmb.models.exudyn_tree import ExudynBird
+from birdmb.models.multibody_kernel import wing_forces
+
+TOPOLOGIES = Path(__file__).parent.parent / "topologies"
+STATE = (18.0, -2.0, 0.1)
+
+
+def best(run: Callable[[], object], repeat: int = 5, inner: int = 1) -> float:
+    """Shortest time of one run in s, after a first that compiles and fills caches."""
+    run()
+    times = []
+    for _ in range(repeat):
+        start = time.perf_counter()
+        for _ in range(inner):
+            run()
+        times.append((time.perf_counter() - start) / inner)
+    return min(times)
+
+
+def load_evaluations(prescribed: birdmb.Bird, compliant: birdmb.Bird) -> tuple[float, float]:
+    """Seconds of one evaluation of the loads in the two models' right-hand sides."""
+    rigid = birdmb.RigidModel(prescribed)
+    table = prescribed_wing(rigid.wing, np.array([0.01]), *rigid.discretisation)
+    elements, inverse = at_phase(table.elements, 0), table.inverse[0]
+    density = prescribed.air.density
+    fixed = best(lambda: resultant_and_derivatives(elements, inverse, density, *STATE), inner=2000)
+
+    model = birdmb.MultibodyModel(compliant)
+    angles, rates = model.joint_motion(0.01, model.driven_state(0.01))
+    shape = model.instant(0.01).shape
+    free = best(
+        lambda: wing_forces(
+            model.wing, shape, model.turning, angles, rates, density, 0.1, 18.0, 1.0, 0.1
+        ),
+        inner=2000,
+    )
+    return fixed, free
+
+
+def integrations(bird: birdmb.Bird) -> tuple[float, float, int]:
+    """Seconds of a beat in Exudyn with and without the air's loads; evaluations of the forces."""
+    model = birdmb.MultibodyModel(bird)
+    x0, steps, calls = model.initial_guess(), model.steps_per_beat, 0
+
+    def springs_alone(t: float, q: np.ndarray, v: np.ndarray) -> np.ndarray:
+        nonlocal calls
+        calls += 1
+        return model.spring_forces(t, q, v)
+
+    bare = ExudynBird(bird, springs_alone, model.prescribed, model.driver_accelerations)
+    q, v = model.coordinates(0.0, x0)
+    bare.integrate(q, v, 0.0, bird.period, steps)
+    evaluations, calls = calls, 0
+    without = best(lambda: bare.integrate(q, v, 0.0, bird.period, steps))
+    return best(lambda: model.flow(x0, 0.0, bird.period)), without, evaluations
+
+
+class CountedModel:
+    """Counts the flows, which are what a search for a limit cycle pays for."""
+
+    def __init__(self, model: birdmb.RigidModel | birdmb.MultibodyModel) -> None:
+        self._model, self.flows = model, 0
+
+    def __getattr__(self, name: str) -> object:
+        found = getattr(self._model, name)
+        if name not in {"flow", "flow_jacobian"}:
+            return found
+
+        def counted(*arguments: object) -> object:
+            self.flows += 1
+            return found(*arguments)
+
+        return counted
+
+
+def main() -> None:
+    """Print the tables."""
+    console = Console()
+    ibis = birdmb.load_bird(TOPOLOGIES / "ibis.toml")
+    compliant = birdmb.load_bird(TOPOLOGIES / "ibis_compliant_shoulder.toml")
+    loaded, bare, evaluations = integrations(compliant)
+
+    table = Table("what", "time", "remark")
+    fixed, free = load_evaluations(ibis, compliant)
+    table.add_row("loads and derivatives, joints prescribed", f"{fixed * 1e6:.1f} us", "as called")
+    table.add_row("loads, shoulder compliant", f"{free * 1e6:.1f} us", "as called")
+    for name, bird, kind in (
+        ("rigid cycle with multipliers", ibis, birdmb.RigidModel),
+        ("multibody cycle with multipliers, one compliant joint", compliant, birdmb.MultibodyModel),
+    ):
+        counted = CountedModel(kind(bird))
+        birdmb.find_limit_cycle(counted)
+        seconds = best(lambda bird=bird, kind=kind: birdmb.find_limit_cycle(kind(bird)), repeat=3)
+        table.add_row(name, f"{seconds * 1e3:.0f} ms", f"from a cold guess, {counted.flows} flows")
+    table.add_row("a beat in Exudyn with loads", f"{loaded * 1e3:.1f} ms", f"{evaluations} calls")
+    table.add_row("a beat in Exudyn without", f"{bare * 1e3:.1f} ms", f"ratio {loaded / bare:.2f}")
+    console.print(table)
+
+    scaling = Table("elements a wing", "joints prescribed", "shoulder compliant")
+    for n in (8, 16, 32, 64):
+        values = {"wing.discretisation": n}
+        fixed, free = load_evaluations(ibis.with_values(values), compliant.with_values(values))
+        scaling.add_row(str(n), f"{fixed * 1e6:.1f} us", f"{free * 1e6:.1f} us")
+    console.print(scaling)
+
+
+if __name__ == "__main__":
+    main()

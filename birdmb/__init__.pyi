@@ -1,0 +1,46 @@
+from .errors import BirdmbError, OrbitError, StateError, TopologyError
+from .models import Beat, Flight, FlightCycle, Loads, MultibodyModel, RigidModel
+from .orbits import (
+    Branch,
+    ConvergenceError,
+    FloquetResult,
+    LimitCycle,
+    OdeModel,
+    continue_branch,
+    find_limit_cycle,
+    floquet,
+    largest_lyapunov_exponent,
+    load_branch,
+    mode_disturbance,
+    perturbed_response,
+    stability_boundary,
+)
+from .topology import Bird, load_bird
+
+__all__ = [
+    "Beat",
+    "Bird",
+    "BirdmbError",
+    "Branch",
+    "ConvergenceError",
+    "Flight",
+    "FlightCycle",
+    "FloquetResult",
+    "LimitCycle",
+    "Loads",
+    "MultibodyModel",
+    "OdeModel",
+    "OrbitError",
+    "RigidModel",
+    "StateError",
+    "TopologyError",
+    "continue_branch",
+    "find_limit_cycle",
+    "floquet",
+    "largest_lyapunov_exponent",
+    "load_bird",
+    "load_branch",
+    "mode_disturbance",
+    "perturbed_response",
+    "stability_boundary",
+]
