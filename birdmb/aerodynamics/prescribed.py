@@ -53,6 +53,16 @@ def prescribed_wing(
     )
 
 
+def every_second(wing: PrescribedWing) -> PrescribedWing:
+    """The table of every second phase, the first included."""
+    return PrescribedWing(
+        Elements(*(array[::2].copy() for array in wing.elements)),
+        wing.inverse[::2].copy(),
+        wing.beyond[::2].copy(),
+        wing.converged[::2].copy(),
+    )
+
+
 @njit(cache=True)
 def at_phase(stack: Elements, k: int) -> Elements:
     """Elements at the k-th phase, as views."""

@@ -1,12 +1,17 @@
 """The rigid bird: four states, massless wings that follow their drivers (MODEL section 7)."""
 
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 import numpy.typing as npt
 
 from birdmb._typing import FloatArray
-from birdmb.aerodynamics.prescribed import PrescribedWing, driven, prescribed_wing
+from birdmb.aerodynamics.prescribed import (
+    PrescribedWing,
+    driven,
+    every_second,
+    prescribed_wing,
+)
 from birdmb.errors import StateError
 from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
@@ -16,17 +21,23 @@ from birdmb.models.wing_model import (
     BODY_SCALE,
     BODY_STATES,
     BODY_UNITS,
+    STEPS_PER_BEAT,
     WingModel,
     lifting_line_lost,
 )
 from birdmb.topology import Bird
+
+_ORDER = 4
+_TOLERANCE = 1e-6
+_MOST_STEPS = 1000
 
 
 class RigidModel(WingModel):
     """Rigid body with massless wings; all joints follow their drivers, compliant ones too.
 
     Integrated by classical Runge-Kutta steps, with exact variational equations, over a table of
-    the wing at every half step.
+    the wing at every half step. By default there are as many as keep the estimated error of a beat
+    below 1e-6 of the state scale.
     """
 
     limit_cycle_type = FlightCycle
@@ -37,6 +48,30 @@ class RigidModel(WingModel):
         super().__init__(bird, steps_per_beat=steps_per_beat)
         self._constants = (bird.body.mass, bird.body.inertia_yy, bird.gravity, bird.air.density)
         self._table = lru_cache(maxsize=64)(self._tabulate)
+
+    @cached_property
+    def steps_per_beat(self) -> int:
+        """Integration steps per wingbeat: as wanted, or as the error estimate asks for."""
+        if self._steps_wanted is not None:
+            return self._steps_wanted
+        steps = STEPS_PER_BEAT
+        while steps < _MOST_STEPS and self._error_of(steps) > _TOLERANCE:
+            steps *= 2
+        return steps
+
+    def _error_of(self, steps: int) -> float:
+        """Error of a beat from the first guess, in units of the state scale.
+
+        By Richardson's extrapolation from half the steps, over every second phase of the table.
+        """
+        period = self.bird.period
+        fine = self._table(0.0, period, steps)
+        coarse = every_second(fine)
+        ends = [
+            integrate_rigid(table, self._first_guess, period / n, *self._constants)[0][-1]
+            for table, n in ((fine, steps), (coarse, steps // 2))
+        ]
+        return float(np.abs((ends[0] - ends[1]) / self.state_scale).max()) / (2**_ORDER - 1)
 
     @property
     def state_scale(self) -> FloatArray:
@@ -70,6 +105,10 @@ class RigidModel(WingModel):
 
     def initial_guess(self) -> FloatArray:
         """State (4,) in which the loads, averaged over a beat, come closest to balance."""
+        return self._first_guess.copy()
+
+    @cached_property
+    def _first_guess(self) -> FloatArray:
         times = np.linspace(0.0, self.bird.period, 17)[:-1]
         wing = prescribed_wing(self.wing, times, *self.discretisation)
         return mean_trim(self.bird, wing)

@@ -103,7 +103,7 @@ class WingModel(ABC):
         return {"steps_per_beat": self._steps_wanted}
 
     def _steps(self, t0: float, t1: float) -> int:
-        return max(1, round(self.steps_per_beat * (t1 - t0) / self.bird.period))
+        return max(1, round(self.steps_per_beat * abs(t1 - t0) / self.bird.period))
 
 
 def lifting_line_lost(bird: Bird, t: float, angles: FloatArray) -> StateError:

@@ -80,9 +80,13 @@ def _smooth_ramp(x: complex) -> complex:
 @njit(cache=True)
 def point(line: RoundedPolyline, s: complex, out: Array) -> None:
     """Write the point (3,) m at parameter s; before 0 and after 1 the end legs go straight on."""
-    out[:] = line.start + s * line.tangent
+    for i in range(3):
+        out[i] = line.start[i] + s * line.tangent[i]
     for k in range(line.corner.size):
-        ramp = line.width[k] * _smooth_ramp((s - line.corner[k]) / line.width[k])
+        past = s - line.corner[k]
+        if past.real <= -line.width[k].real:
+            break
+        ramp = line.width[k] * _smooth_ramp(past / line.width[k])
         for i in range(3):
             out[i] += line.turn[k, i] * ramp
 
@@ -90,8 +94,12 @@ def point(line: RoundedPolyline, s: complex, out: Array) -> None:
 @njit(cache=True)
 def tangent(line: RoundedPolyline, s: complex, out: Array) -> None:
     """Write the derivative (3,) m of the point by the parameter s."""
-    out[:] = line.tangent
+    for i in range(3):
+        out[i] = line.tangent[i]
     for k in range(line.corner.size):
-        step = smooth_step((s - line.corner[k]) / line.width[k])
+        past = s - line.corner[k]
+        if past.real <= -line.width[k].real:
+            break
+        step = smooth_step(past / line.width[k])
         for i in range(3):
             out[i] += line.turn[k, i] * step
