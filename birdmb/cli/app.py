@@ -50,8 +50,8 @@ Assignments = Annotated[
     typer.Option(
         "--set",
         metavar="NAME=VALUE",
-        help="Change a value of the bird, by its dotted name: --set body.mass=1.3, "
-        "--set shoulder.flap.stiffness=20, --set wing.discretisation=published. Repeatable.",
+        help="Change a value of the bird by its dotted name: body.mass=1.3, "
+        "shoulder.flap.stiffness=20, wing.discretisation=published. Repeatable.",
     ),
 ]
 
@@ -90,8 +90,9 @@ def cycle(
     model: Annotated[
         ModelName,
         typer.Option(
+            metavar="MODEL",
             help="multibody: body and wings with mass, joints prescribed or compliant (Exudyn). "
-            "rigid: massless wings, all joints prescribed."
+            "rigid: massless wings, all joints prescribed.",
         ),
     ] = ModelName.MULTIBODY,
     assignments: Assignments = None,
@@ -106,22 +107,34 @@ def cycle(
         bool, typer.Option("--json", help="Print one JSON object to standard output, no tables.")
     ] = False,
     segments: Annotated[
-        int, typer.Option(min=1, help="Shooting segments; more tame strongly unstable flights.")
+        int,
+        typer.Option(
+            min=1, metavar="N", help="Shooting segments; more tame strongly unstable flights."
+        ),
     ] = 1,
     tolerance: Annotated[
-        float, typer.Option(help="Closure error accepted, in units of the states' typical sizes.")
+        float,
+        typer.Option(
+            metavar="X", help="Closure error accepted, in units of the states' typical sizes."
+        ),
     ] = 1e-9,
-    max_iterations: Annotated[int, typer.Option(min=1, help="Iterations allowed.")] = 50,
+    max_iterations: Annotated[
+        int, typer.Option(min=1, metavar="N", help="Iterations allowed.")
+    ] = 50,
     method: Annotated[
         Method,
         typer.Option(
-            help="newton, or levenberg-marquardt: takes longer, starts from further away."
+            metavar="METHOD",
+            help="newton, or levenberg-marquardt: takes longer, starts from further away.",
         ),
     ] = Method.NEWTON,
     steps_per_beat: Annotated[
         int | None,
         typer.Option(
-            min=4, help="Integration steps per wingbeat.", show_default="the model chooses"
+            min=4,
+            metavar="N",
+            help="Integration steps per wingbeat.",
+            show_default="the model chooses",
         ),
     ] = None,
 ) -> None:
@@ -131,11 +144,14 @@ def cycle(
     standard output.
     """
     with reported(as_json=json):
-        from birdmb.cli.cycle import Search, run  # noqa: PLC0415
+        from birdmb.cli.birds import requested_bird  # noqa: PLC0415
+
+        bird = requested_bird(topology, assignments or [])
+
+        from birdmb.cli.cycle import Search, run  # noqa: PLC0415 - not before the bird is sound
 
         run(
-            topology,
-            assignments or [],
+            bird,
             Search(
                 model=model.value,
                 segments=segments,
@@ -151,7 +167,7 @@ def cycle(
 
 @app.command(
     epilog="Exit status: 0 a possible bird, warnings or not; 2 not a possible bird.\n\n"
-    "Example: birdmb check topologies/ibis.toml --set hand.mass=0.02"
+    "Example: birdmb check topologies/ibis.toml --set segments.hand.mass=0.02"
 )
 def check(topology: Topology, assignments: Assignments = None) -> None:
     """Validate a topology file and say what bird it describes.
@@ -159,9 +175,13 @@ def check(topology: Topology, assignments: Assignments = None) -> None:
     Masses, span, joints with their drivers, springs and dampers, discretisation, and warnings.
     """
     with reported():
+        from birdmb.cli.birds import requested_bird  # noqa: PLC0415
+
+        bird = requested_bird(topology, assignments or [])
+
         from birdmb.cli.check import run  # noqa: PLC0415
 
-        run(topology, assignments or [])
+        run(bird)
 
 
 def main() -> None:

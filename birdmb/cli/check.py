@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from pathlib import Path
-
 import numpy as np
 from rich.console import Console
-from rich.padding import Padding
 from rich.table import Table
 
-from birdmb.cli.birds import requested_bird
 from birdmb.cli.inertia import spring_of
 from birdmb.cli.progress import Progress
 from birdmb.cli.report import table_of
@@ -20,9 +15,8 @@ from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.outline import wing_outline
 
 
-def run(topology: Path, assignments: Sequence[str]) -> None:
-    """Validate a bird, print what it is, and warnings."""
-    bird = requested_bird(topology, assignments)
+def run(bird: Bird) -> None:
+    """Print what a bird is, and warnings."""
     progress = Progress(Console(stderr=True))
     with progress.shown():
         progress.doing("measuring the wing")
@@ -32,7 +26,8 @@ def run(topology: Path, assignments: Sequence[str]) -> None:
         warnings = warnings_on(bird)
     console = Console()
     for table in tables:
-        console.print(Padding(table, (1, 0, 0, 0)))
+        console.print()
+        console.print(table)
     console.print()
     for warning in warnings:
         console.print(f"Warning: {warning}", style="yellow", highlight=False, markup=False)

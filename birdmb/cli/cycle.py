@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, cast
 
 from rich.console import Console
 
-from birdmb.cli.birds import requested_bird
 from birdmb.cli.files import prepare, remove_drafts, write_results
 from birdmb.cli.interrupt import ending_at_once
 from birdmb.cli.outcome import InputError, SearchFailed
@@ -42,13 +41,10 @@ class Search:
     steps_per_beat: int | None
 
 
-def run(
-    topology: Path, assignments: Sequence[str], search: Search, *, out: Path | None, as_json: bool
-) -> None:
+def run(bird: Bird, search: Search, *, out: Path | None, as_json: bool) -> None:
     """Find the limit cycle, report it on standard output and write it into `out`."""
     if not 0 < search.tolerance < math.inf:
         raise InputError(f"--tolerance must be positive, not {search.tolerance:g}.")
-    bird = requested_bird(topology, assignments)
     if out is not None:
         prepare(out)
     progress = Progress(Console(stderr=True))

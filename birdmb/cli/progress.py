@@ -94,5 +94,5 @@ class _Compilation(event.Listener):
 def _announcement(cache: Path) -> str:
     """What to say before the first compilation, given the directory of the compiled kernels."""
     if not any(cache.glob("*.nbi")):
-        return "Compiling the kernels, once per installation (about half a minute) ..."
+        return "Compiling the kernels, once per installation (up to a minute) ..."
     return "Compiling kernels that are new or have changed since the last run ..."

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 from rich import box
 from rich.console import Console
-from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
@@ -24,7 +23,8 @@ _IN_DEGREES = {"rad": "°", "rad/s": "°/s"}
 def print_report(console: Console, cycle: FlightCycle) -> None:
     """Print orbit, multipliers, flight and joints of a limit cycle, and the verdict."""
     for table in (_orbit(cycle), _multipliers(cycle), _flight(cycle), _joints(cycle)):
-        console.print(Padding(table, (1, 0, 0, 0)))
+        console.print()
+        console.print(table)
     console.print()
     verdict = Text(verdict_sentence(cycle))
     verdict.highlight_words([cycle.stability], _STYLES[cycle.stability])
@@ -87,6 +87,7 @@ def _flight(cycle: FlightCycle) -> Table:
         ("climb rate", f"{cycle.mean_climb_rate:+.3f}", "m/s", ""),
         ("path angle", f"{np.degrees(cycle.path_angle):+.2f}", "°", ""),
         ("power", f"{cycle.power:.3f}", "W", "to move the wings against the air"),
+        ("  of feathers", f"{cycle.feather_power:.3f}", "W", "the part that no joint delivers"),
         ("potential power", f"{cycle.potential_power:.3f}", "W", "drawn from sinking"),
         ("corrected power", f"{cycle.corrected_power:.3f}", "W", "the sum: as if level"),
         ("cost of transport", f"{cycle.cost_of_transport:.4f}", "", "power / (weight x speed)"),

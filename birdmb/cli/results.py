@@ -62,9 +62,9 @@ def growth(cycle: FlightCycle, i: int) -> str:
     modulus, error = float(np.abs(cycle.multipliers[i])), float(cycle.multiplier_errors[i])
     if abs(modulus - 1) <= error:
         return "undecided within its error"
-    if error > 0.01 * modulus:  # too small to be told from zero: the slowest halving it may have
-        slowest = cycle.period * math.log(2) / -math.log(modulus + error) if modulus < 1 else 0.0
-        return f"halves in < {_time(slowest, cycle.period)}" if modulus < 1 else "doubles"
+    if modulus < 1 and error > 0.01 * modulus:  # all that is known is how slow it is at most
+        slowest = cycle.period * math.log(2) / -math.log(modulus + error)
+        return f"halves in < {_time(slowest, cycle.period)}"
     does = "doubles" if modulus > 1 else "halves"
     return f"{does} in {_time(float(cycle.doubling_times[i]), cycle.period)}"
 

@@ -67,6 +67,5 @@ def _on_line(bird: Bird) -> Iterator[str]:
     if lost:
         yield (
             f"no line orthogonal to its chords fits the wing as driven at t = {lost[0]:.3g} T "
-            f"({len(lost)} of {_PHASES} phases): it is folded too far, or wing.discretisation has "
-            "too many elements for its rounding."
+            f"({len(lost)} of {_PHASES} phases): it is folded too far."
         )

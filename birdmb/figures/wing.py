@@ -26,6 +26,8 @@ _COLOURS = "RdBu_r"
 _MIRROR = np.array([1.0, -1.0, 1.0])
 # Slower than this part of the fastest stroke, the wings are turning round.
 _TURNING = 0.35
+# Between drawings, m.
+_GAP = 0.16
 
 _Style = dict[str, Any]
 _BONE: _Style = {"color": "k", "lw": 1.8, "marker": "o", "ms": 2.6, "solid_capstyle": "round"}
@@ -79,7 +81,7 @@ class Pose:
 
 def wing_phases(cycle: FlightCycle) -> Figure:
     """Draw both wings at t = 0, T/4, T/2 and 3T/4 in three views of equal scale."""
-    figure = Figure(figsize=(13, 7.2), layout="constrained")
+    figure = Figure(figsize=(13, 6.2), layout="constrained")
     draw_wing_phases(figure, cycle, (OBLIQUE, BEHIND, TOP))
     figure.legend(handles=_legend(), loc="outside lower center", ncols=5, frameon=False)
     figure.suptitle(f"{model_of(cycle).bird.name}: the wings in body axes", fontsize="medium")
@@ -90,33 +92,31 @@ def draw_wing_phases(figure: Figure | SubFigure, cycle: FlightCycle, views: Sequ
     """Draw the wings at four phases, a row for each view, all on one scale of length and colour."""
     poses = _poses(cycle)
     norm = CenteredNorm(0.0, max(float(np.abs(p.circulation).max()) for p in poses))
+    # One set of axes for all: nothing else keeps all drawings on one scale.
+    axes = figure.subplots()
+    axes.set(aspect="equal")
+    axes.margins(0.01)
+    axes.set_axis_off()
     boxes = [_box(view, poses) for view in views]
-    heights = [box[1][1] - box[1][0] for box in boxes]
-    grid = figure.subplots(len(views), len(poses), squeeze=False, height_ratios=heights)
-    for row, (view, (xlim, ylim)) in enumerate(zip(views, boxes, strict=True)):
-        for axes, pose in zip(grid[row], poses, strict=True):
-            _draw(axes, pose, view, norm)
-            axes.set(xlim=xlim, ylim=ylim, aspect="equal")
-            axes.set_axis_off()
-            if row == 0:
-                axes.set_title(f"t = {_fraction(pose.phase)}, {pose.motion}", fontsize="medium")
+    width = _GAP + max(right - left for (left, _), (right, _) in boxes)
+    top = 0.0
+    for view, ((left, low), (right, high)) in zip(views, boxes, strict=True):
+        for column, pose in enumerate(poses):
+            middle = column * width - 0.5 * (left + right)
+            _draw(axes, pose, view, norm, np.array([middle, top - high]))
         if len(views) > 1:
-            grid[row, 0].text(
-                -0.02,
-                0.5,
-                view.name,
-                rotation=90,
-                ha="right",
-                va="center",
-                transform=grid[row, 0].transAxes,
-                color="0.3",
-            )
+            place = (-0.5 * width, top - 0.5 * (high - low))
+            axes.text(*place, view.name, rotation=90, ha="right", va="center", color="0.3")
+        top -= high - low + _GAP
+    for column, pose in enumerate(poses):
+        title = f"t = {_fraction(pose.phase)}, {pose.motion}"
+        axes.text(column * width, 0.3 * _GAP, title, ha="center", va="bottom")
+    _scale_bar(axes, -0.5 * width, top + 0.3 * _GAP)
     colours = ScalarMappable(norm, _COLOURS)
-    bar = figure.colorbar(colours, ax=grid, label="circulation Γ (m²/s)", shrink=0.7, pad=0.01)
+    bar = figure.colorbar(colours, ax=axes, label="circulation Γ (m²/s)", shrink=0.7, pad=0.01)
     # Zero is white on any scale; what does not occur need not be shown.
     lowest, highest = (float(f([f(p.circulation) for p in poses])) for f in (np.min, np.max))
     bar.ax.set_ylim(min(lowest, 0.0), max(highest, 0.0))
-    _scale_bar(grid[-1, 0])
 
 
 def _poses(cycle: FlightCycle) -> list[Pose]:
@@ -144,24 +144,26 @@ def _fraction(phase: float) -> str:
     return {0.0: "0", 0.25: "T/4", 0.5: "T/2", 0.75: "3T/4"}[phase]
 
 
-def _box(view: View, poses: Sequence[Pose]) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Limits on paper that hold both wings of all poses."""
-    points = np.concatenate(
-        [np.concatenate([p.outline.leading, p.outline.trailing]) for p in poses]
-    )
+def _box(view: View, poses: Sequence[Pose]) -> tuple[FloatArray, FloatArray]:
+    """Lower left and upper right corner (2,) on paper of both wings in all poses."""
+    points = np.concatenate([np.vstack([p.outline.leading, p.outline.trailing]) for p in poses])
     seen = view(np.concatenate([points, points * _MIRROR]))
-    (x0, y0), (x1, y1) = seen.min(axis=0) - 0.03, seen.max(axis=0) + 0.03
-    return (x0, x1), (y0, y1)
+    return seen.min(axis=0), seen.max(axis=0)
 
 
-def _draw(axes: Axes, pose: Pose, view: View, norm: CenteredNorm) -> None:
+def _draw(axes: Axes, pose: Pose, view: View, norm: CenteredNorm, origin: FloatArray) -> None:
+    """Draw both wings with the body's centre of mass at `origin` (2,) m on paper."""
+
+    def seen(points: FloatArray) -> FloatArray:
+        return origin + view(points)
+
     outline = pose.outline
     panels = np.concatenate([outline.panels, outline.panels * _MIRROR])
     circulation = np.concatenate([pose.circulation, pose.circulation])
     order = np.argsort((panels @ view.towards).mean(axis=1))
     axes.add_collection(
         PolyCollection(
-            list(view(panels[order])),
+            list(seen(panels[order])),
             array=circulation[order],
             norm=norm,
             cmap=_COLOURS,
@@ -171,12 +173,12 @@ def _draw(axes: Axes, pose: Pose, view: View, norm: CenteredNorm) -> None:
     )
     for side in (np.ones(3), _MIRROR):
         for feather in outline.feathers:
-            axes.plot(*view(feather * side).T, **_FEATHER)
+            axes.plot(*seen(feather * side).T, **_FEATHER)
         for edge in (outline.leading, outline.trailing):
-            axes.plot(*view(edge * side).T, **_EDGE)
-        axes.plot(*view(outline.line * side).T, **_LIFTING_LINE)
-        axes.plot(*view(outline.bones * side).T, **_BONE)
-    axes.plot(*view(np.zeros((1, 3))).T, **_CENTRE)
+            axes.plot(*seen(edge * side).T, **_EDGE)
+        axes.plot(*seen(outline.line * side).T, **_LIFTING_LINE)
+        axes.plot(*seen(outline.bones * side).T, **_BONE)
+    axes.plot(*seen(np.zeros((1, 3))).T, **_CENTRE)
 
 
 def _legend() -> list[Line2D]:
@@ -190,7 +192,6 @@ def _legend() -> list[Line2D]:
     return [Line2D([], [], label=label, **style) for label, style in styles.items()]
 
 
-def _scale_bar(axes: Axes) -> None:
-    x0, y0 = axes.get_xlim()[0], axes.get_ylim()[0]
-    axes.plot([x0 + 0.03, x0 + 0.28], [y0, y0], color="k", lw=2, clip_on=False)
-    axes.text(x0 + 0.3, y0, "0.25 m", ha="left", va="center", fontsize="small")
+def _scale_bar(axes: Axes, x: float, y: float) -> None:
+    axes.plot([x, x + 0.25], [y, y], color="k", lw=2)
+    axes.text(x + 0.27, y, "0.25 m", ha="left", va="center", fontsize="small")

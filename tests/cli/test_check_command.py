@@ -1,0 +1,97 @@
+"""`birdmb check`: what the bird is, and what to beware of."""
+
+import math
+
+import pytest
+
+from birdmb import load_bird
+from birdmb.cli.inertia import spring_of
+from birdmb.cli.warnings import warnings_on
+
+from .conftest import COMPLIANT, IBIS
+
+POINTS = {f"segments.{bone}.inertia": [0, 0, 0] for bone in ("humerus", "forearm", "hand")}
+MASSLESS = POINTS | {f"segments.{bone}.mass": 0 for bone in ("humerus", "forearm", "hand")}
+
+
+def test_what_the_bird_is(run):
+    result = run("check", COMPLIANT)
+    assert result.exit_code == 0, result.stderr
+    rows = [" ".join(line.split()) for line in result.stdout.splitlines()]
+    for row in (
+        "mass of the whole bird 1.26 kg",
+        "span, joints at zero 1.360 m",
+        "elements per wing 32 orthogonal",
+        "humerus 0.134 0.01",
+        "shoulder.flap humerus compliant 0.00 42.00 180.00",
+        "shoulder.flap 20 0.2 0.00157 18 Hz",
+        "No warnings.",
+    ):
+        assert row in rows
+    assert max(map(len, result.stdout.splitlines())) <= 80
+
+
+def test_warnings_are_printed_and_no_error(run):
+    result = run("check", IBIS, "--set", "gravity=0")
+    assert result.exit_code == 0
+    assert "Warning: gravity is 0: nothing has to be carried." in result.stdout
+
+
+# values, and what the only warning must say
+CASES = {
+    "none": ({}, None),
+    "no gravity": ({"gravity": 0}, "gravity is 0"),
+    "no air": ({"air.density": 0}, "air.density is 0"),
+    "prescribed with a spring": (
+        {"wrist.sweep.stiffness": 1, "wrist.sweep.mode": "prescribed"},
+        "wrist.sweep is prescribed: its stiffness and damping are not used",
+    ),
+    "no mass": (
+        MASSLESS | {"shoulder.flap.stiffness": 20},
+        "shoulder.flap is compliant, but moves no mass",
+    ),
+    "points on the axis": (
+        POINTS | {"forearm.roll.stiffness": 1, "wrist.sweep.offset": 0},
+        "forearm.roll is compliant, but moves no mass",
+    ),
+    "no spring": ({"shoulder.flap.stiffness": 0}, "nothing pulls it towards its driver"),
+    "resonance": ({"shoulder.flap.stiffness": 1}, "close to the wingbeat of 4 Hz"),
+    "folded too far": (
+        {"elbow.sweep.offset_deg": 150},
+        "no line orthogonal to its chords fits the wing",
+    ),
+    "a glider": (
+        {
+            f"{joint}.amplitude": 0
+            for joint in (
+                "shoulder.pitch",
+                "shoulder.flap",
+                "shoulder.sweep",
+                "elbow.sweep",
+                "forearm.roll",
+                "wrist.sweep",
+            )
+        },
+        "the bird glides",
+    ),
+}
+
+
+@pytest.mark.parametrize(("values", "says"), CASES.values(), ids=CASES)
+def test_warnings(values, says):
+    warnings = warnings_on(load_bird(IBIS).with_values(values))
+    assert len(warnings) == (says is not None), warnings
+    assert says is None or says in warnings[0]
+
+
+def test_inertia_of_a_straight_wing_about_the_flap_axis():
+    straight = {f"{joint}.offset": 0.0 for joint in load_bird(COMPLIANT).joint_names}
+    bird = load_bird(COMPLIANT).with_values(straight)
+    spring = spring_of(bird, bird.joint("shoulder.flap"))
+    expected, reached = 0.0, 0.0
+    for bone in ("humerus", "forearm", "hand"):
+        segment = getattr(bird.segments, bone)
+        expected += segment.inertia[0][0] + segment.mass * (reached + segment.length / 2) ** 2
+        reached += segment.length
+    assert spring.inertia == pytest.approx(expected, rel=1e-12)
+    assert spring.frequency == pytest.approx(math.sqrt(20 / expected) / (2 * math.pi))

@@ -1,0 +1,112 @@
+"""How the command line starts, stops and talks about compiling, as a process of its own."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from importlib.metadata import version
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+from rich.console import Console
+
+from birdmb.cli.progress import Progress, _Compilation
+
+from .conftest import COMPLIANT, IBIS
+
+HEAVY = ("exudyn", "numba", "matplotlib", "scipy", "xarray")
+
+
+def birdmb(*arguments):
+    return subprocess.run(
+        [sys.executable, "-m", "birdmb", *arguments],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+
+
+def test_version():
+    result = birdmb("--version")
+    assert (result.returncode, result.stdout) == (0, f"birdmb {version('birdmb')}\n")
+
+
+@pytest.mark.parametrize("command", [(), ("cycle",), ("check",)])
+def test_help(command):
+    result = birdmb(*command, "--help")
+    assert result.returncode == 0
+    assert "Example" in result.stdout
+
+
+def test_help_and_wrong_birds_wait_for_nothing_heavy():
+    script = (
+        "import sys; from typer.testing import CliRunner; from birdmb.cli.app import app; "
+        "CliRunner().invoke(app, sys.argv[1:]); "
+        f"print([name for name in {HEAVY} if name in sys.modules])"
+    )
+    for arguments in (["cycle", "--help"], ["cycle", IBIS, "--set", "body.mass=-1"]):
+        run = [sys.executable, "-c", script, *arguments]
+        assert subprocess.check_output(run, text=True) == "[]\n"
+
+
+def test_a_mistake_is_no_traceback():
+    result = birdmb("cycle", IBIS, "--set", "body.mass=-1")
+    assert result.returncode == 2
+    assert result.stdout == ""
+    assert result.stderr.startswith("Error: ibis (with body.mass = -1): body.mass: must be more")
+    assert len(result.stderr.splitlines()) == 1
+
+
+@pytest.mark.skipif(os.name != "posix", reason="sends a POSIX signal")
+def test_ctrl_c_while_exudyn_integrates(tmp_path):
+    # A shell that runs tests in the background has them ignore Ctrl-C.
+    script = (
+        "import signal; signal.signal(signal.SIGINT, signal.default_int_handler); "
+        "from birdmb.cli import main; main()"
+    )
+    with subprocess.Popen(
+        [sys.executable, "-c", script, "cycle", COMPLIANT, "--out", str(tmp_path), "--json"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        assert process.stderr is not None
+        first = process.stderr.readline()  # the search has begun
+        time.sleep(0.3)
+        process.send_signal(signal.SIGINT)
+        output, errors = process.communicate(timeout=60)
+    assert first.startswith("ibis_compliant_shoulder, multibody model")
+    assert process.returncode == 130
+    assert output == ""
+    assert errors.splitlines()[-1] == "Interrupted."
+    assert "Traceback" not in errors
+    assert not list(Path(tmp_path).iterdir())
+
+
+@pytest.mark.parametrize(
+    ("cached", "says"), [(False, "once per installation"), (True, "new or have changed")]
+)
+def test_compiling_is_announced_once(tmp_path, capsys, cached, says):
+    if cached:
+        (tmp_path / "line.point.nbi").touch()
+    listener = _Compilation(Progress(Console(stderr=True)))
+    events = [
+        SimpleNamespace(
+            data={
+                "dispatcher": SimpleNamespace(
+                    py_func=SimpleNamespace(__module__=module, __name__="kernel"),
+                    stats=SimpleNamespace(cache_path=str(tmp_path)),
+                )
+            }
+        )
+        for module in ("numba.np.linalg", "birdmb.wing.line", "birdmb.wing.line")
+    ]
+    for event in events:
+        listener.on_start(event)
+        listener.on_end(event)
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 1
+    assert says in lines[0]
