@@ -93,7 +93,7 @@ def _joints(bird: Bird) -> Table:
 
 def _springs(bird: Bird) -> Table:
     table = table_of(
-        "Compliant joints: stiffness, damping, moved inertia, natural frequency without air",
+        "Compliant joints, by themselves without air",
         "joint", "k, N m/rad", "C, N m s/rad", "I, kg m2", "swings at",
         numbers=(1, 2, 3, 4),
     )  # fmt: skip

@@ -103,7 +103,7 @@ def _joints(cycle: FlightCycle) -> Table:
     joints, drivers = cycle.joint_powers, cycle.driver_powers
     differ = any(abs(joints[name] - drivers[name]) > 1e-9 for name in joints)
     columns = ("joint", "joint, W", "driver, W") if differ else ("joint", "joint, W")
-    table = table_of("Power into the joints, both wings", *columns, numbers=(1, 2))
+    table = table_of("Joint power, both wings", *columns, numbers=(1, 2))
     for name, power in (*joints.items(), ("all", sum(joints.values()))):
         driver = drivers.get(name, sum(drivers.values()))
         table.add_row(name, f"{power:.3f}", *([f"{driver:.3f}"] if differ else []))
