@@ -1,0 +1,30 @@
+"""Studies of a bird's flight: trim, parameter studies, validity, tunnel, disturbed flight."""
+
+from birdmb.studies.cycles import ModelFactory
+from birdmb.studies.errors import TrimError
+from birdmb.studies.perturbed import flight_path, perturbed_flight
+from birdmb.studies.perturbed_figure import plot_perturbed_flight
+from birdmb.studies.sweep import parameter_study
+from birdmb.studies.sweep_figure import plot_multiplier_locus, plot_performance
+from birdmb.studies.trim import Trim, trim_flight
+from birdmb.studies.tunnel import tunnel_and_free_flight
+from birdmb.studies.tunnel_figure import plot_tunnel_and_free_flight
+from birdmb.studies.validity import Excess, Validity, assess_validity
+
+__all__ = [
+    "Excess",
+    "ModelFactory",
+    "Trim",
+    "TrimError",
+    "Validity",
+    "assess_validity",
+    "flight_path",
+    "parameter_study",
+    "perturbed_flight",
+    "plot_multiplier_locus",
+    "plot_performance",
+    "plot_perturbed_flight",
+    "plot_tunnel_and_free_flight",
+    "trim_flight",
+    "tunnel_and_free_flight",
+]

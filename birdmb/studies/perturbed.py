@@ -1,0 +1,106 @@
+"""Flight after a disturbance along each mode of a limit cycle, in its states and in the world."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from scipy.interpolate import make_interp_spline
+
+from birdmb._typing import FloatArray
+from birdmb.figures.style import model_of
+from birdmb.models import FlightCycle
+from birdmb.orbits import mode_disturbance, perturbed_response
+
+
+def perturbed_flight(
+    cycle: FlightCycle, *, amplitude: float = 0.05, periods: int = 5, samples: int = 100
+) -> xr.Dataset:
+    """Follow the flight after a disturbance along each mode of the cycle, by the full model.
+
+    Of a conjugate pair of modes, the one with the multiplier above the real axis is taken; the
+    disturbance is its real part (`birdmb.orbits.mode_disturbance`).
+
+    Args:
+        cycle: limit cycle of a bird.
+        amplitude: size of the disturbance in units of the state scale (10 m/s, 2 m/s, 1 rad/s and
+            0.2 rad for the body): the largest entry of the mode is disturbed by that much.
+        periods: beats to follow it.
+        samples: times per beat.
+
+    Returns:
+        By `mode` (position among the cycle's multipliers) and `time` (s): `states` and their
+        `deviation` from the cycle (by `state`), path `X` and height `h` (m, from where the body is
+        when disturbed); by `time` alone the undisturbed `orbit`, `orbit_X`, `orbit_h`; by `mode`
+        and `beat` the deviation `linear` that the monodromy matrix predicts, by `mode`
+        `multiplier_real` and `multiplier_imag`, and `failure`: empty, or why the flight ended
+        early, its states then being NaN.
+
+    Raises:
+        ArgumentError: numbers that are not positive.
+    """
+    modes = np.flatnonzero(cycle.multipliers.imag >= 0)
+    start, beats = cycle.start_time, np.arange(periods + 1)
+    responses = [
+        perturbed_response(
+            cycle,
+            mode_disturbance(cycle, int(mode), amplitude),
+            periods=periods,
+            samples=samples,
+        )
+        for mode in modes
+    ]
+    times = np.concatenate(
+        [
+            [start],
+            *(start + cycle.period * (k + np.arange(1, samples + 1) / samples) for k in beats[:-1]),
+        ]
+    )
+    orbit = cycle.trajectory(times).states
+    states = np.full((modes.size, *orbit.shape), np.nan)
+    linear = np.full((modes.size, beats.size, orbit.shape[1]), np.nan)
+    path = np.full((modes.size, times.size, 2), np.nan)
+    for i, response in enumerate(responses):
+        reached = len(response.times)
+        states[i, :reached] = response.states
+        linear[i, : len(response.linear)] = response.linear
+        path[i, :reached] = flight_path(response.times, response.states)
+    orbit_path = flight_path(times, orbit)
+    metres = {"units": "m"}
+    by_mode = ("mode", "time", "state")
+    return xr.Dataset(
+        {
+            "states": (by_mode, states),
+            "deviation": (by_mode, states - orbit),
+            "X": (("mode", "time"), path[:, :, 0], metres),
+            "h": (("mode", "time"), path[:, :, 1], metres),
+            "orbit": (("time", "state"), orbit),
+            "orbit_X": ("time", orbit_path[:, 0], metres),
+            "orbit_h": ("time", orbit_path[:, 1], metres),
+            "linear": (("mode", "beat", "state"), linear),
+            "multiplier_real": ("mode", cycle.multipliers[modes].real),
+            "multiplier_imag": ("mode", cycle.multipliers[modes].imag),
+            "failure": ("mode", np.array([r.failure or "" for r in responses], dtype=str)),
+        },
+        coords={
+            "mode": modes,
+            "time": ("time", times, {"units": "s"}),
+            "beat": beats,
+            "state": list(cycle.state_names),
+        },
+        attrs={"bird": model_of(cycle).bird.name, "amplitude": amplitude, "period": cycle.period},
+    )
+
+
+def flight_path(times: FloatArray, states: FloatArray) -> FloatArray:
+    """Path X and height h (K, 2), m, from the first place on, of body states (K, n >= 4).
+
+    X' = u cos(theta) + w sin(theta), h' = u sin(theta) - w cos(theta), integrated by cubic splines:
+    errors of fourth order in the distance of four or more times.
+    """
+    if times.size == 1:  # a flight that failed within its first beat
+        return np.zeros((1, 2))
+    u, w, theta = states[:, 0], states[:, 1], states[:, 3]
+    c, s = np.cos(theta), np.sin(theta)
+    velocity = np.column_stack([u * c + w * s, u * s - w * c])
+    integral = make_interp_spline(times, velocity, k=min(3, times.size - 1)).antiderivative()
+    return np.asarray(integral(times) - integral(times[0]))

@@ -1,0 +1,107 @@
+"""Figures of a parameter study."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+
+from birdmb.figures.style import LINE
+from birdmb.orbits.plots import STABLE_COLOUR, UNSTABLE_COLOUR
+
+_ROWS = {
+    "mean_speed": "mean speed (m/s)",
+    "climb_rate": "climb rate (m/s)",
+    "path_angle": "path angle (°)",
+    "power": "wing power (W)",
+}
+
+
+def plot_performance(study: xr.Dataset) -> Figure:
+    """Draw mean speed, climb rate, path angle and power of a `parameter_study` over its parameter.
+
+    The axis is the dimension of the study: another coordinate may be made it by `swap_dims`. Open
+    markers are cycles outside the model's validity.
+    """
+    figure = Figure(figsize=(9, 5.6), layout="constrained")
+    panels = figure.subplots(2, 2, sharex=True)
+    parameter, valid = _parameter(study), study["warning"].values == ""
+    for axes, (name, label) in zip(panels.ravel(), _ROWS.items(), strict=True):
+        values = study[name].values
+        shown = np.degrees(values) if name == "path_angle" else values
+        axes.plot(study[parameter], shown, "-", color=LINE)
+        for inside, face in ((valid, LINE), (~valid, "w")):
+            axes.plot(study[parameter][inside], shown[inside], "o", **_marker(LINE, face))
+        if name in ("climb_rate", "path_angle"):
+            axes.axhline(0, color="0.7", lw=0.8, zorder=0)
+        axes.set_ylabel(label)
+        axes.spines[["top", "right"]].set_visible(False)
+    for axes in panels[-1]:
+        axes.set_xlabel(_label(study))
+    figure.align_ylabels()
+    _title(figure, study, "mean flight of the limit cycles")
+    return figure
+
+
+def plot_multiplier_locus(study: xr.Dataset) -> Figure:
+    """Draw the moduli of the multipliers over the parameter, and where they go in the plane.
+
+    Axis and open markers as in `plot_performance`.
+    """
+    figure = Figure(figsize=(10, 4.6), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    values = study["multiplier_real"].values + 1j * study["multiplier_imag"].values
+    moduli = np.abs(values)
+    over = np.broadcast_to(study[_parameter(study)].values[:, None], moduli.shape)
+    left.axhline(1, color="0.6", lw=1)
+    valid = np.broadcast_to(study["warning"].values[:, None] == "", moduli.shape)
+    for stable, colour in ((True, STABLE_COLOUR), (False, UNSTABLE_COLOUR)):
+        shown = (moduli <= 1) == stable
+        label = "|Λ| ≤ 1" if stable else "|Λ| > 1"
+        for where, face in ((valid & shown, colour), (~valid & shown, "w")):
+            left.plot(over[where], moduli[where], "o", **_marker(colour, face))
+        left.plot([], [], "o", label=label, **_marker(colour, colour))
+    left.set(xlabel=_label(study), ylabel="|Λ|", ylim=(0, None))
+    left.locator_params(axis="x", nbins=6)
+    left.legend(frameon=False, loc="best")
+    left.spines[["top", "right"]].set_visible(False)
+    _draw_plane(right, values, over)
+    figure.colorbar(right.collections[0], ax=right, label=_label(study), pad=0.02)
+    _title(figure, study, "Floquet multipliers")
+    return figure
+
+
+def _draw_plane(axes: Axes, values: np.ndarray, over: np.ndarray) -> None:
+    axes.axhline(0, color="0.9", lw=0.8, zorder=0)
+    axes.axvline(0, color="0.9", lw=0.8, zorder=0)
+    axes.add_patch(Circle((0, 0), 1, fill=False, color="0.6"))
+    axes.scatter(values.real, values.imag, c=over, s=22, cmap="viridis", zorder=3)
+    reach = 1.08 * max(1.0, float(np.nanmax(np.abs(values.imag))))
+    furthest = max(1.0, float(np.nanmax(values.real)))
+    nearest = min(-1.0, float(np.nanmin(values.real)))
+    axes.set(xlim=(nearest - 0.08, furthest + 0.08), ylim=(-reach, reach), aspect="equal")
+    axes.set(xlabel="Re Λ", ylabel="Im Λ")
+    axes.spines[["top", "right"]].set_visible(False)
+
+
+def _marker(colour: str, face: str) -> dict[str, Any]:
+    return {"color": colour, "markerfacecolor": face, "markersize": 4.5}
+
+
+def _title(figure: Figure, study: xr.Dataset, what: str) -> None:
+    outside = " (open: outside the model's validity)" if (study["warning"] != "").any() else ""
+    figure.suptitle(f"{study.attrs['bird']}: {what}{outside}", fontsize="medium")
+
+
+def _parameter(study: xr.Dataset) -> str:
+    return str(study["mean_speed"].dims[0])
+
+
+def _label(study: xr.Dataset) -> str:
+    name = _parameter(study)
+    units = study[name].attrs.get("units", "")
+    return f"{name.removesuffix('_deg')} (°)" if units == "deg" else name

@@ -1,0 +1,140 @@
+"""What a search for a trim has tried, and what it says when there is none."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from birdmb._typing import FloatArray
+from birdmb.errors import OrbitError, StateError
+from birdmb.models import FlightCycle
+from birdmb.studies.cycles import ModelFactory, WarmCycles
+from birdmb.topology import Bird
+
+
+class Trimmed(Exception):  # noqa: N818 - it reports success
+    """The targets are met: the search may stop."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A limit cycle that was tried: parameters (k,), what it reaches, and by how much it misses."""
+
+    point: FloatArray
+    cycle: FlightCycle
+    reached: dict[str, float]
+    differences: FloatArray
+
+
+class TrimSearch:
+    """Differences from the targets as a function of the parameters (k,), and all that was tried."""
+
+    def __init__(
+        self,
+        bird: Bird,
+        parameters: Mapping[str, tuple[float, float]],
+        targets: Mapping[str, float],
+        model: ModelFactory,
+        tolerance: float,
+    ) -> None:
+        self.bird, self._names, self._targets = bird, tuple(parameters), dict(targets)
+        self._tolerance = tolerance
+        self.low, self.high = np.array(list(parameters.values()), dtype=float).T
+        own = np.array([_number(bird.value(name)) for name in self._names])
+        inside = (self.low <= own) & (own <= self.high)
+        self.start = np.where(inside, own, 0.5 * (self.low + self.high))
+        for bound in (self.low, self.high):  # bounds that no bird can have are told at once
+            bird.with_values(self.named(bound))
+        self._cycle = WarmCycles(bird, model)
+        self.found: dict[tuple[float, ...], Trial] = {}
+        self._failures: dict[tuple[float, ...], str] = {}
+
+    def differences(self, point: FloatArray) -> FloatArray:
+        """Reached minus wanted (k,), m/s.
+
+        Raises:
+            Trimmed: they are all within the tolerance.
+            OrbitError, StateError: there is no limit cycle.
+        """
+        key = tuple(point.tolist())
+        if key not in self.found:
+            try:
+                cycle = self._cycle(self.named(point))
+            except (OrbitError, StateError) as error:
+                self._failures[key] = str(error)
+                raise
+            reached = {"climb_rate": cycle.mean_climb_rate, "speed": cycle.mean_speed}
+            missed = np.array([reached[name] - wanted for name, wanted in self._targets.items()])
+            self.found[key] = Trial(point.copy(), cycle, reached, missed)
+            if self.is_trimmed(self.found[key]):
+                raise Trimmed
+        return self.found[key].differences
+
+    @property
+    def best(self) -> Trial | None:
+        """The trial that misses the targets least."""
+        trials = self.found.values()
+        return min(trials, key=lambda t: float(np.abs(t.differences).max()), default=None)
+
+    def is_trimmed(self, trial: Trial) -> bool:
+        """Whether it misses the targets by no more than the tolerance."""
+        return bool((np.abs(trial.differences) <= self._tolerance).all())
+
+    def named(self, point: FloatArray) -> dict[str, float]:
+        """The parameters by dotted name."""
+        return {name: float(value) for name, value in zip(self._names, point, strict=True)}
+
+    def not_trimmed(self, best: Trial) -> str:
+        """Say what was wanted, and what came closest."""
+        return (
+            f"{self.bird.name}: no trim to {_spelt(self._targets)} was found for {self._bounds()}; "
+            f"closest is {_spelt({name: best.reached[name] for name in self._targets})} with "
+            f"{_assigned(self.named(best.point))}{self._span()}{self._first_failure()}."
+        )
+
+    def nothing_found(self) -> str:
+        """Say that there was no limit cycle to judge."""
+        return f"{self.bird.name}: no trim for {self._bounds()}{self._first_failure()}."
+
+    def _bounds(self) -> str:
+        return " and ".join(
+            f"{name} from {low:.6g} to {high:.6g}"
+            for name, low, high in zip(self._names, self.low, self.high, strict=True)
+        )
+
+    def _span(self) -> str:
+        """What one parameter made of its target all over its bounds."""
+        if len(self._names) > 1:
+            return ""
+        rates = [trial.reached["climb_rate"] for trial in self.found.values()]
+        if max(rates) - min(rates) <= self._tolerance:
+            return " (it does not depend on it)"
+        return f" (it goes from {min(rates):.4g} to {max(rates):.4g} m/s)"
+
+    def _first_failure(self) -> str:
+        if not self._failures:
+            return ""
+        (point, reason), *_ = self._failures.items()
+        tries = len(self._failures) + len(self.found)
+        values = _assigned(self.named(np.array(point)))
+        return (
+            f"; {len(self._failures)} of {tries} values tried have no limit cycle, first {values}: "
+            f"{reason.rstrip('.')}"
+        )
+
+
+def _spelt(speeds: Mapping[str, float]) -> str:
+    return " and ".join(
+        f"{name.replace('_', ' ')} {value:.4g} m/s" for name, value in speeds.items()
+    )
+
+
+def _assigned(values: Mapping[str, float]) -> str:
+    return ", ".join(f"{name} = {value:.6g}" for name, value in values.items())
+
+
+def _number(value: object) -> float:
+    """A parameter's own value; NaN, which is outside all bounds, where it has none."""
+    return float(value) if isinstance(value, int | float) else float("nan")

@@ -1,0 +1,243 @@
+"""Whether a flight stays where the quasi-steady lifting line means anything.
+
+The model takes every section as a thin airfoil in steady attached flow. That needs small angles of
+attack, for there is no stall in it, and a wingbeat that is slow against the time the air takes to
+pass the chord.
+
+**Which angle of attack counts.** The geometric angle is that of the undisturbed wind; the effective
+one also counts the downwash of the wake, and is what the section itself meets: its lift coefficient
+is 2 pi times the effective angle. Whether a section stalls is decided by its pressure distribution,
+that is by its lift coefficient, so that the effective angle is judged and warned about. Under a
+strong downwash the geometric angle may be far larger without harm; it is reported beside it.
+
+**The outermost hundredth of the wing is not judged.** Towards a pointed tip the effective angle of
+any lifting line grows without bound as elements are refined (for the ibis 22, 26 and 32 deg at the
+last of 16, 32 and 64 elements), where chord and load vanish. The tip that holds the last 1 % of the
+wing's area is therefore left out of the verdict, but not of the data.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import cast
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from birdmb._typing import BoolArray, FloatArray
+from birdmb.models import FlightCycle, WingModel
+from birdmb.studies.validity_figure import plot_validity
+from birdmb.wing.outline import wing_outline
+
+TIP_AREA = 0.01
+LARGEST_ANGLE = float(np.radians(15.0))
+LARGEST_REDUCED_FREQUENCY = 0.2
+
+
+@dataclass(frozen=True)
+class Excess:
+    """One way in which a flight leaves the model's validity, and where and when it does so most.
+
+    `str()` of it is a sentence.
+    """
+
+    quantity: str
+    """"effective angle of attack" or "reduced frequency"."""
+    value: float
+    """The worst value; rad or 1."""
+    limit: float
+    """The limit it exceeds; rad or 1."""
+    element: int
+    """Element of the wing, from 0 at the root, where it is worst."""
+    span_position: float
+    """Distance along the lifting line from the plane of symmetry, m."""
+    span_fraction: float
+    """The same as a part of the line's length to the wing tip."""
+    time: float
+    """Time when it is worst, s."""
+    phase: float
+    """The same as a part of the beat, in [0, 1); 0 is where the drivers' time is 0."""
+    share: float
+    """Part of the wing's area, averaged over the beat, that is beyond the limit."""
+
+    def __str__(self) -> str:
+        """Say what, how much, where and when."""
+        where = (
+            f"at element {self.element}, {self.span_position:.3g} m along the span "
+            f"({self.span_fraction:.0%} of the half-span), at t = {self.time:.4g} s "
+            f"(phase {self.phase:.2f} of the beat)"
+        )
+        if self.quantity == "reduced frequency":
+            return (
+                f"The reduced frequency is {self.value:.3g}, beyond {self.limit:.3g}; locally it "
+                f"is largest {where}. The unsteady wake, which the model leaves out, matters there."
+            )
+        return (
+            f"The {self.quantity} reaches {np.degrees(self.value):.1f} deg, beyond "
+            f"{np.degrees(self.limit):.3g} deg, {where}; {self.share:.1%} of wing area and beat "
+            f"are beyond it. The model has no stall: a real section would lose lift there."
+        )
+
+
+@dataclass(frozen=True)
+class Validity:
+    """How far a flight is from the limits of the quasi-steady model.
+
+    Attributes:
+        data: by `time` (s) and `element` (from the root): `angle_of_attack` (geometric),
+            `effective_angle_of_attack` (rad), `reduced_frequency` (local, pi f c/|U|), `area`
+            (m2, of one wing's elements), `judged` (False at the tip); coordinates `phase`,
+            `span_position` (m along the lifting line from the plane of symmetry) and
+            `span_fraction`.
+        reduced_frequency: k = pi f c/U, with the mean chord (area by span, averaged over the beat)
+            and the speed of the flight; that is omega c/(2 U), on half the chord.
+        strouhal_number: f A/U, with A the distance between the highest and the lowest place of the
+            wing tip relative to the body, along its z axis (Taylor, Nudds & Thomas 2003).
+        excesses: where the limits are exceeded; none if the flight is within them.
+    """
+
+    data: xr.Dataset
+    reduced_frequency: float
+    strouhal_number: float
+    excesses: tuple[Excess, ...]
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """A sentence for each excess."""
+        return tuple(map(str, self.excesses))
+
+    @property
+    def largest_angle_of_attack(self) -> float:
+        """Largest modulus of the effective angle, rad, without the tip."""
+        angle = self.data["effective_angle_of_attack"].values
+        return float(np.abs(angle[self.data["judged"].values]).max())
+
+    def plot(self) -> Figure:
+        """Draw both angles of attack over beat and span, with the limits of validity."""
+        return plot_validity(self.data)
+
+
+def assess_validity(
+    cycle: FlightCycle,
+    *,
+    largest_angle: float = LARGEST_ANGLE,
+    largest_reduced_frequency: float = LARGEST_REDUCED_FREQUENCY,
+) -> Validity:
+    """Compare a limit cycle with the limits of the quasi-steady model, element by element.
+
+    Args:
+        cycle: limit cycle of a bird.
+        largest_angle: largest modulus of the effective angle of attack, rad.
+        largest_reduced_frequency: largest k of the whole flight.
+    """
+    model = cast(WingModel, cycle.model)
+    frequency = model.bird.gait.frequency
+    data = _along_span_and_beat(cycle, frequency).assign_attrs(
+        bird=model.bird.name, largest_angle=largest_angle, tip_area=TIP_AREA
+    )
+    area = data["area"].values[:-1]
+    span = np.array([loads.width.sum() for loads in cycle.beat.loads])[:-1]
+    mean_chord = float((area.sum(axis=1) / span).mean())
+    k = np.pi * frequency * mean_chord / cycle.mean_speed
+    excesses = list(_beyond_angle(data, largest_angle))
+    if k > largest_reduced_frequency:
+        local = data["reduced_frequency"].values
+        beyond = local > largest_reduced_frequency
+        where = np.where(data["judged"], local, 0.0)
+        excesses.append(
+            _excess(data, "reduced frequency", where, beyond, k, largest_reduced_frequency)
+        )
+    return Validity(
+        data=data,
+        reduced_frequency=float(k),
+        strouhal_number=frequency * _tip_excursion(cycle, model) / cycle.mean_speed,
+        excesses=tuple(excesses),
+    )
+
+
+def _along_span_and_beat(cycle: FlightCycle, frequency: float) -> xr.Dataset:
+    beat = cycle.beat
+    chord, width, speed, circulation, geometric = (
+        np.array([getattr(loads, name) for loads in beat.loads])
+        for name in ("chord", "width", "speed", "circulation", "angle_of_attack")
+    )
+    along, length = _span_positions(np.array([loads.position for loads in beat.loads]), width)
+    area = chord * width
+    # The tip: elements of which the middle lies in the last of the area.
+    outside = np.cumsum(area[:, ::-1], axis=1)[:, ::-1] - 0.5 * area
+    both = ("time", "element")
+    return xr.Dataset(
+        {
+            "angle_of_attack": (both, geometric, {"units": "rad"}),
+            "effective_angle_of_attack": (
+                both,
+                circulation / (np.pi * chord * speed),
+                {"units": "rad", "long_name": "lift coefficient of the section over 2 pi"},
+            ),
+            "reduced_frequency": (both, np.pi * frequency * chord / speed, {"units": "1"}),
+            "area": (both, area, {"units": "m2"}),
+            "judged": (both, outside > TIP_AREA * area.sum(axis=1, keepdims=True)),
+        },
+        coords={
+            "time": ("time", beat.times, {"units": "s"}),
+            "phase": ("time", np.mod(beat.times * frequency, 1.0)),
+            "element": np.arange(chord.shape[1]),
+            "span_position": (both, along, {"units": "m"}),
+            "span_fraction": (both, along / length[:, None]),
+        },
+    )
+
+
+def _span_positions(position: FloatArray, width: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Distance (K, N) m of the control points along the line from its centre; its length (K,)."""
+    steps = np.linalg.norm(np.diff(position, axis=1), axis=2)
+    first = np.abs(position[:, :1, 1])
+    along = np.concatenate([first, first + np.cumsum(steps, axis=1)], axis=1)
+    # Chords of a curved line taken in other places may differ by a little.
+    return along, np.maximum(width.sum(axis=1), along[:, -1])
+
+
+def _beyond_angle(data: xr.Dataset, limit: float) -> Iterator[Excess]:
+    """The worst place of either sign: too large upwards and downwards are two matters."""
+    angle = np.where(data["judged"], data["effective_angle_of_attack"], 0.0)
+    for sign in (1.0, -1.0):
+        if (sign * angle).max() > limit:
+            beyond = sign * angle > limit
+            worst = float(sign * (sign * angle).max())
+            yield _excess(data, "effective angle of attack", sign * angle, beyond, worst, limit)
+
+
+def _excess(
+    data: xr.Dataset,
+    quantity: str,
+    badness: FloatArray,
+    beyond: BoolArray,
+    value: float,
+    limit: float,
+) -> Excess:
+    # The end of the beat is its beginning: it counts once.
+    area = data["area"].values[:-1]
+    row, element = np.unravel_index(np.argmax(badness[:-1]), badness[:-1].shape)
+    at = data.isel(time=int(row), element=int(element))
+    return Excess(
+        quantity=quantity,
+        value=float(value),
+        limit=limit,
+        element=int(element),
+        span_position=float(at["span_position"]),
+        span_fraction=float(at["span_fraction"]),
+        time=float(at["time"]),
+        phase=float(at["phase"]),
+        share=float((area * beyond[:-1]).sum() / area.sum()),
+    )
+
+
+def _tip_excursion(cycle: FlightCycle, model: WingModel) -> float:
+    discretisation = model.bird.wing.resolved_discretisation
+    heights = [
+        wing_outline(model.wing, model.joint_motion(t, x)[0], discretisation).line[-1, 2]
+        for t, x in zip(cycle.beat.times, cycle.beat.states, strict=True)
+    ]
+    return float(np.ptp(heights))
