@@ -92,6 +92,12 @@ def _flight(cycle: FlightCycle) -> Table:
         ("corrected power", f"{cycle.corrected_power:.3f}", "W", "the sum: as if level"),
         ("cost of transport", f"{cycle.cost_of_transport:.4f}", "", "power / (weight x speed)"),
         ("energy imbalance", f"{cycle.energy_imbalance:.1e}", "", "a check: 0 if exact"),
+        (
+            "integration error",
+            f"{cycle.integration_error:.1e}",
+            "",
+            "of a beat, against half steps",
+        ),
     )
     for row in rows:
         table.add_row(*row)

@@ -50,6 +50,7 @@ def result_object(cycle: FlightCycle, model_name: str) -> dict[str, object]:
         "driver_powers": cycle.driver_powers,
         "feather_power": cycle.feather_power,
         "energy_imbalance": cycle.energy_imbalance,
+        "integration_error": cycle.integration_error,
     }
 
 

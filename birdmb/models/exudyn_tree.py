@@ -121,7 +121,7 @@ class ExudynBird:
         prescribed: BoolArray,
         driver: TimeFunction,
     ) -> None:
-        self._failure: BirdmbError | None = None
+        self._failure: BirdmbError | KeyboardInterrupt | None = None
         links = bird_links(bird)
         n = self.size = len(links)
         self._container = exu.SystemContainer()
@@ -142,7 +142,7 @@ class ExudynBird:
             if self._failure is None:
                 try:
                     return forces(t, np.array(q), np.array(v))
-                except BirdmbError as error:
+                except (BirdmbError, KeyboardInterrupt) as error:
                     # Exudyn would rewrap it and print a banner; it is raised again afterwards.
                     self._failure = error
                 except np.linalg.LinAlgError:

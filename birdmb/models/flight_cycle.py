@@ -1,5 +1,6 @@
 """What a limit cycle says about the flight of a bird: speed, climb, loads, power."""
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import cast
@@ -142,9 +143,10 @@ class FlightCycle(LimitCycle):
 
     @property
     def cost_of_transport(self) -> float:
-        """`power` per weight and speed, dimensionless."""
+        """`power` per weight and speed, dimensionless; NaN without weight."""
         model = self._bird_model
-        return self.power / (model.mass * model.bird.gravity * self.mean_speed)
+        way = model.mass * model.bird.gravity * self.mean_speed
+        return self.power / way if way else math.nan
 
     @property
     def joint_powers(self) -> dict[str, float]:

@@ -223,14 +223,22 @@ class MultibodyModel(WingModel):
 
     def _make_instant(self, t: float) -> Instant:
         angles, rates, accelerations = driven(self.wing, t)
-        still = np.arange(angles.size) < self.turning
+        shape = None
+        if self.turning:
+            still = np.arange(angles.size) < self.turning
+            shape = wing_shape(
+                self.wing,
+                np.where(still, 0.0, angles),
+                np.where(still, 0.0, rates),
+                *self.discretisation,
+            )
+            if not shape.converged:
+                raise lifting_line_lost(self.bird, t, angles)
         return Instant(
             angles,
             rates,
             np.concatenate([np.zeros(BODY_COORDINATES), accelerations, accelerations]),
-            self._shape(t, np.where(still, 0.0, angles), np.where(still, 0.0, rates))
-            if self.turning
-            else None,
+            shape,
         )
 
     def _shape(self, t: float, angles: FloatArray, rates: FloatArray) -> WingShape:

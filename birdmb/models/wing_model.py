@@ -37,6 +37,9 @@ class WingModel(ABC):
         steps_per_beat: integration steps per wingbeat; by default the model chooses.
     """
 
+    state_names: tuple[str, ...]
+    state_units: tuple[str, ...]
+
     def __init__(self, bird: Bird, *, steps_per_beat: int | None = None) -> None:
         self.bird = bird
         self.wing = wing_arrays(bird)
