@@ -15,6 +15,16 @@ from .orbits import (
     perturbed_response,
     stability_boundary,
 )
+from .studies import (
+    Trim,
+    TrimError,
+    Validity,
+    assess_validity,
+    parameter_study,
+    perturbed_flight,
+    trim_flight,
+    tunnel_and_free_flight,
+)
 from .topology import Bird, load_bird
 
 __all__ = [
@@ -34,6 +44,10 @@ __all__ = [
     "RigidModel",
     "StateError",
     "TopologyError",
+    "Trim",
+    "TrimError",
+    "Validity",
+    "assess_validity",
     "continue_branch",
     "find_limit_cycle",
     "floquet",
@@ -41,6 +55,10 @@ __all__ = [
     "load_bird",
     "load_branch",
     "mode_disturbance",
+    "parameter_study",
+    "perturbed_flight",
     "perturbed_response",
     "stability_boundary",
+    "trim_flight",
+    "tunnel_and_free_flight",
 ]

@@ -20,6 +20,7 @@ from birdmb.cli.progress import Progress
 from birdmb.cli.report import print_report
 from birdmb.cli.results import finite, result_object
 from birdmb.orbits import ConvergenceError, find_limit_cycle
+from birdmb.studies import assess_validity
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
@@ -57,7 +58,8 @@ def run(bird: Bird, search: Search, *, out: Path | None, as_json: bool) -> None:
     with ending_at_once(tidy), _only_results_on_stdout(), progress.shown():
         cycle = _found(bird, search, progress)
         progress.doing("loads and power over the beat")
-        found = result_object(cycle, search.model)
+        validity = assess_validity(cycle)
+        found = result_object(cycle, validity, search.model)
         written = [] if out is None else write_results(cycle, out, progress)
     if as_json:
         json.dump(
@@ -65,7 +67,7 @@ def run(bird: Bird, search: Search, *, out: Path | None, as_json: bool) -> None:
         )
         sys.stdout.write("\n")
     else:
-        print_report(Console(), cycle)
+        print_report(Console(), cycle, validity)
         for path in written:
             progress.line(f"wrote {path}")
 

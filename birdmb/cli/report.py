@@ -15,20 +15,23 @@ from birdmb.cli.results import growth, verdict_sentence
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
     from birdmb.orbits.problem import HasStateUnits
+    from birdmb.studies import Validity
 
 _STYLES = {"stable": "bold green", "unstable": "bold red", "undecided": "bold yellow"}
 _IN_DEGREES = {"rad": "°", "rad/s": "°/s"}
 
 
-def print_report(console: Console, cycle: FlightCycle) -> None:
-    """Print orbit, multipliers, flight and joints of a limit cycle, and the verdict."""
-    for table in (_orbit(cycle), _multipliers(cycle), _flight(cycle), _joints(cycle)):
+def print_report(console: Console, cycle: FlightCycle, validity: Validity) -> None:
+    """Print orbit, multipliers, flight and joints of a limit cycle, verdict and warnings."""
+    for table in (_orbit(cycle), _multipliers(cycle), _flight(cycle, validity), _joints(cycle)):
         console.print()
         console.print(table)
     console.print()
     verdict = Text(verdict_sentence(cycle))
     verdict.highlight_words([cycle.stability], _STYLES[cycle.stability])
     console.print(verdict)
+    for warning in validity.warnings:
+        console.print(f"outside the model's validity: {warning}", style="yellow", highlight=False)
 
 
 def table_of(title: str, *columns: str, numbers: tuple[int, ...] = ()) -> Table:
@@ -80,7 +83,7 @@ def _number(value: float) -> str:
     return f"{value:.6f}" if abs(value) >= 1e-3 else f"{value:.1e}"
 
 
-def _flight(cycle: FlightCycle) -> Table:
+def _flight(cycle: FlightCycle, validity: Validity) -> Table:
     table = table_of("Flight, mean over a beat", "quantity", "value", "unit", "", numbers=(1,))
     rows = (
         ("speed", f"{cycle.mean_speed:.3f}", "m/s", ""),
@@ -91,6 +94,14 @@ def _flight(cycle: FlightCycle) -> Table:
         ("potential power", f"{cycle.potential_power:.3f}", "W", "drawn from sinking"),
         ("corrected power", f"{cycle.corrected_power:.3f}", "W", "the sum: as if level"),
         ("cost of transport", f"{cycle.cost_of_transport:.4f}", "", "power / (weight x speed)"),
+        ("reduced frequency", f"{validity.reduced_frequency:.3f}", "", "pi f chord / speed"),
+        ("Strouhal number", f"{validity.strouhal_number:.3f}", "", "f x tip excursion / speed"),
+        (
+            "angle of attack",
+            f"{np.degrees(validity.largest_angle_of_attack):.1f}",
+            "°",
+            "largest effective one, but for the tip",
+        ),
         ("energy imbalance", f"{cycle.energy_imbalance:.1e}", "", "a check: 0 if exact"),
         (
             "integration error",

@@ -12,6 +12,7 @@ import numpy as np
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
     from birdmb.models.wing_model import WingModel
+    from birdmb.studies import Validity
 
 
 def finite(value: float) -> float | None:
@@ -19,7 +20,7 @@ def finite(value: float) -> float | None:
     return float(value) if math.isfinite(value) else None
 
 
-def result_object(cycle: FlightCycle, model_name: str) -> dict[str, object]:
+def result_object(cycle: FlightCycle, validity: Validity, model_name: str) -> dict[str, object]:
     """What `birdmb cycle --json` prints, in SI units and rad: numbers, texts, lists and objects."""
     model = cast("WingModel", cycle.model)
     bird = model.bird
@@ -51,6 +52,10 @@ def result_object(cycle: FlightCycle, model_name: str) -> dict[str, object]:
         "feather_power": cycle.feather_power,
         "energy_imbalance": cycle.energy_imbalance,
         "integration_error": cycle.integration_error,
+        "reduced_frequency": validity.reduced_frequency,
+        "strouhal_number": validity.strouhal_number,
+        "largest_angle_of_attack": validity.largest_angle_of_attack,
+        "validity_warnings": list(validity.warnings),
     }
 
 

@@ -62,12 +62,12 @@ class Beat:
         about_joints = np.array([loads.joint_torques for loads in self.loads]) * self.joint_rates
         return np.asarray(on_body + 2.0 * about_joints.sum(axis=1))
 
-    @cached_property
-    def velocity(self) -> FloatArray:
-        """Forward speed and climb rate (K, 2) m/s of the body in the world."""
-        u, w, theta = self.states[:, 0], self.states[:, 1], self.states[:, 3]
-        c, s = np.cos(theta), np.sin(theta)
-        return np.column_stack([u * c + w * s, u * s - w * c])
+
+def world_velocity(states: FloatArray) -> FloatArray:
+    """Forward speed and climb rate (K, 2) m/s of the body in the world, from states (K, n)."""
+    u, w, theta = states[:, 0], states[:, 1], states[:, 3]
+    c, s = np.cos(theta), np.sin(theta)
+    return np.column_stack([u * c + w * s, u * s - w * c])
 
 
 def _mean(values: FloatArray) -> FloatArray:
@@ -90,8 +90,7 @@ class FlightCycle(LimitCycle):
     def beat(self) -> Beat:
         """The beat, at the steps of the model's integration."""
         model = self._bird_model
-        times = self.start_time + np.linspace(0.0, self.period, model.steps_per_beat + 1)
-        states = self.trajectory(times).states
+        times, states = self._states_of_beat
         at = list(zip(times, states, strict=True))
         return Beat(
             times=times,
@@ -103,9 +102,16 @@ class FlightCycle(LimitCycle):
         )
 
     @cached_property
+    def _states_of_beat(self) -> tuple[FloatArray, FloatArray]:
+        """Times (K,) and states (K, n) of a beat, at the steps of the model's integration."""
+        steps = self._bird_model.steps_per_beat
+        times = self.start_time + np.linspace(0.0, self.period, steps + 1)
+        return times, self.trajectory(times).states
+
+    @cached_property
     def mean_velocity(self) -> FloatArray:
         """Mean forward speed and climb rate (2,) m/s in the world."""
-        return _mean(self.beat.velocity)
+        return _mean(world_velocity(self._states_of_beat[1]))
 
     @property
     def mean_speed(self) -> float:
@@ -193,7 +199,7 @@ class FlightCycle(LimitCycle):
         """
         model = self._bird_model
         joints = self.beat.joint_power.sum(axis=1)
-        gravity = -model.mass * model.bird.gravity * self.beat.velocity[:, 1]
+        gravity = -model.mass * model.bird.gravity * world_velocity(self.beat.states)[:, 1]
         exchanged = np.abs(joints) + np.abs(self.beat.air_power) + np.abs(gravity)
         left_over = _mean(joints + self.beat.air_power + gravity)
         return float(np.abs(left_over) / _mean(exchanged))

@@ -27,6 +27,8 @@ class Loads:
     """(J,) N m, of the air about each joint of the right wing, along the joint's axis."""
     position: FloatArray
     """(N, 3) m, control points from G."""
+    node: FloatArray
+    """(N + 1, 3) m, ends of the elements from G, from the centre line to the wing tip."""
     velocity: FloatArray
     """(N, 3) m/s, of the control points relative to the body."""
     chord: FloatArray
@@ -53,6 +55,7 @@ def assemble_loads(elements: Elements, loads: ElementLoads, joint_torques: Float
         power=float(-2.0 * np.sum(loads.force * elements.velocity)),
         joint_torques=joint_torques,
         position=elements.position,
+        node=elements.node,
         velocity=elements.velocity,
         chord=elements.chord,
         width=elements.width,

@@ -145,7 +145,7 @@ def solve(
         return kind(
             f"No orbit found: {why} after {len(history) - 1} iterations; the best closure error is "
             f"{closure:.3g} (goal {tolerance:.1g} of the state scale), at x0 = "
-            f"{np.array2string(x, precision=6, max_line_width=np.inf)}, period {period:.6g} s. {advice}",
+            f"{np.array2string(x, precision=6, max_line_width=1000)}, period {period:.6g} s. {advice}",
             x,
             closure,
             history,

@@ -145,7 +145,7 @@ def _reject_equilibrium(
         return  # so unstable that it runs away within a period: no equilibrium does
     if float(np.abs((path - x) / work.scale).max()) > _SMALLEST_AMPLITUDE:
         return
-    where = np.array2string(x, precision=6, max_line_width=np.inf)
+    where = np.array2string(x, precision=6, max_line_width=1000)
     raise EquilibriumError(
         f"No cycle found: the search ended on an equilibrium, or at period zero, near {where} "
         f"(period {period:.3g} s) after {len(iterations) - 1} iterations; start further away from "

@@ -122,7 +122,7 @@ def _flow_jacobian(model: VariationalModel, x0: FloatArray, t0: float, t1: float
 
 
 def _not_finite(what: str, x0: FloatArray, t0: float, t1: float) -> str:
-    state = np.array2string(x0, precision=6, max_line_width=np.inf)
+    state = np.array2string(x0, precision=6, max_line_width=1000)
     return f"The {what} from {state} at t = {t0:.6g} to {t1:.6g} is not finite."
 
 
