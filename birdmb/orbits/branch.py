@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import os
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal, cast
@@ -17,6 +18,8 @@ from birdmb.orbits.errors import BranchStopped
 from birdmb.orbits.multipliers import Stability
 
 BifurcationKind = Literal["fold", "period doubling", "Neimark-Sacker", "branch point"]
+
+_SETTING = "setting_"
 
 
 @dataclass(frozen=True)
@@ -33,6 +36,7 @@ class BranchPoint:
         trivial_index: position of the trivial multiplier, `None` for a forced system.
         stability: verdict of the multipliers.
         tangent: unit tangent of the branch in scaled unknowns, in the direction of travel.
+        next_step: length of the step that was to follow, from which a continuation resumes.
         observables: what the caller asked to be recorded of the orbit, by name.
     """
 
@@ -45,6 +49,7 @@ class BranchPoint:
     trivial_index: int | None
     stability: Stability
     tangent: FloatArray
+    next_step: float
     observables: dict[str, float] = field(default_factory=dict)
 
 
@@ -85,6 +90,8 @@ class Branch:
         points: the orbits.
         bifurcations: what was located between them.
         stopped: why the branch ended early; `None` if it reached an end of its parameter range.
+        settings: what the caller wants kept with the branch, by name: how the orbits were computed,
+            of which system.
     """
 
     parameter_name: str
@@ -94,6 +101,7 @@ class Branch:
     points: tuple[BranchPoint, ...]
     bifurcations: tuple[Bifurcation, ...]
     stopped: BranchStopped | None
+    settings: Mapping[str, str | float] = field(default_factory=dict)
 
     @property
     def parameters(self) -> FloatArray:
@@ -120,6 +128,7 @@ class Branch:
             "parameter_name": self.parameter_name,
             "start_time": self.start_time,
         }
+        attrs |= {f"{_SETTING}{name}": value for name, value in self.settings.items()}
         if self.stopped is not None:
             attrs |= {
                 "stop_reason": self.stopped.reason,
@@ -129,8 +138,17 @@ class Branch:
         return xr.Dataset(data, coords={"state": list(self.state_names)}, attrs=attrs)
 
     def save(self, path: str | Path) -> None:
-        """Write the branch to a NetCDF file, from which `load_branch` and a continuation resume."""
-        self.to_xarray().to_netcdf(path, engine="h5netcdf")
+        """Write the branch to a NetCDF file, from which `load_branch` and a continuation resume.
+
+        A file of that name is replaced only once the new one is whole.
+        """
+        path = Path(path)
+        draft = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
+        try:
+            self.to_xarray().to_netcdf(draft, engine="h5netcdf")
+            draft.replace(path)
+        finally:
+            draft.unlink(missing_ok=True)
 
     def plot(self, quantity: str | None = None) -> Figure:
         """Draw a quantity (a state's name, "period" or an observable) and the multipliers' moduli.
@@ -185,6 +203,13 @@ def load_branch(path: str | Path) -> Branch:
         points=tuple(_unstack(data, "", "point")),
         bifurcations=tuple(bifurcations),
         stopped=stopped,
+        settings={
+            str(key).removeprefix(_SETTING): value.item()
+            if isinstance(value, np.generic)
+            else value
+            for key, value in data.attrs.items()
+            if str(key).startswith(_SETTING)
+        },
     )
 
 
@@ -206,6 +231,7 @@ def _stack(points: Sequence[BranchPoint], dim: str) -> dict[str, xr.DataArray]:
         ),
         "stability": array([p.stability for p in points]),
         "tangent": array([p.tangent for p in points], "unknown"),
+        "next_step": array([p.next_step for p in points]),
     }
     for name in points[0].observables:
         data[f"observable_{name}"] = array([p.observables[name] for p in points])
@@ -231,6 +257,7 @@ def _unstack(data: xr.Dataset, prefix: str, dim: str) -> list[BranchPoint]:
                 trivial_index=None if np.isnan(trivial) else int(trivial),
                 stability=cast("Stability", str(row[f"{prefix}stability"].values)),
                 tangent=row[f"{prefix}tangent"].values,
+                next_step=float(row[f"{prefix}next_step"]),
                 observables={key.removeprefix(start): float(row[key]) for key in observables},
             )
         )

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
+from pathlib import Path
 from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from birdmb.orbits.branch import Bifurcation, Branch, BranchPoint
-from birdmb.orbits.errors import ArgumentError
+from birdmb.orbits.errors import ArgumentError, BranchStopped
 from birdmb.orbits.extended import ExtendedEquations, Family
 from birdmb.orbits.search import find_limit_cycle
 from birdmb.orbits.segments import choose_jacobian
@@ -36,6 +37,8 @@ def continue_branch(
     jacobian: Literal["auto", "variational", "finite-differences"] = "auto",
     observables: Observables | None = None,
     resume: Branch | None = None,
+    store: str | Path | None = None,
+    settings: Mapping[str, str | float] | None = None,
     executor: Executor | None = None,
     callback: Callable[[BranchPoint | Bifurcation], None] | None = None,
 ) -> Branch:
@@ -61,8 +64,11 @@ def continue_branch(
         tolerance: closure error accepted, in units of the state scale.
         jacobian: as for `find_limit_cycle`.
         observables: functions of the `LimitCycle`, by name, whose values are kept at every point.
-        resume: a branch of the same family to go on with from its last point; `guess`,
-            `period_guess`, `segments` and `start_time` are then its own.
+        resume: a branch of the same family over the same range to go on with from its last point,
+            the way it would have gone; `guess`, `period_guess`, `segments` and `start_time` are
+            then its own.
+        store: file in which the branch is saved after every point, so that nothing is lost.
+        settings: texts and numbers to keep with the branch.
         executor: spreads flows over workers; results do not depend on it.
         callback: called with every point and every bifurcation as it is found.
 
@@ -93,7 +99,7 @@ def continue_branch(
         scale, orbit, period = cycle.state_scale, cycle.points, cycle.period
     else:
         start_time, scale = resume.start_time, resume.state_scale
-        orbit, period = resume.points[-1].points, resume.points[-1].period
+        orbit, period = resume.points[0].points, resume.points[0].period
     size = orbit.size + (model.period is None) + 1
     ahead = np.append(np.zeros(size - 1), np.sign(last - first))
     equations = ExtendedEquations(
@@ -108,26 +114,39 @@ def continue_branch(
         direction=ahead,
     )
     tracer = Tracer(equations, steps, tolerance, observables or {})
-    u = tracer.unknowns(begin, orbit, period)
-    point = tracer.point_at(u, ahead if resume is None else resume.points[-1].tangent)
-    points = [] if resume is None else list(resume.points[:-1])
-    points.append(point)
-    bifurcations = [] if resume is None else list(resume.bifurcations)
-    if callback is not None and resume is None:
-        callback(point)
-    for item in tracer.follow(point, max_points, max_bifurcations, len(points)):
+    if resume is None:
+        points = [tracer.point_at(tracer.unknowns(begin, orbit, period), ahead)]
+        bifurcations: list[Bifurcation] = []
+    else:
+        points = list(resume.points)
+        # What lay beyond the last point is found again on the way there.
+        bifurcations = [b for b in resume.bifurcations if b.after < len(points) - 1]
+
+    def kept(stopped: BranchStopped | None) -> Branch:
+        branch = Branch(
+            parameter_name=parameter_name,
+            state_names=tuple(model.state_names),
+            state_scale=scale,
+            start_time=start_time,
+            points=tuple(points),
+            bifurcations=tuple(bifurcations),
+            stopped=stopped,
+            settings=dict(settings or {}),
+        )
+        if store is not None:
+            branch.save(store)
+        return branch
+
+    if resume is None:
+        kept(BranchStopped("the run was interrupted", begin))
+        if callback is not None:
+            callback(points[0])
+    for item in tracer.follow(points[-1], max_points, max_bifurcations, len(points)):
         if isinstance(item, BranchPoint):
             points.append(item)
+            kept(BranchStopped("the run was interrupted", item.parameter))
         else:
             bifurcations.append(item)
         if callback is not None:
             callback(item)
-    return Branch(
-        parameter_name=parameter_name,
-        state_names=tuple(model.state_names),
-        state_scale=scale,
-        start_time=start_time,
-        points=tuple(points),
-        bifurcations=tuple(bifurcations),
-        stopped=tracer.stopped,
-    )
+    return kept(tracer.stopped)

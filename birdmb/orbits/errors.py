@@ -35,6 +35,7 @@ StopReason = Literal[
     "the number of points allowed was reached",
     "the cycles shrank to an equilibrium",
     "the number of bifurcations asked for was reached",
+    "the run was interrupted",
 ]
 
 

@@ -75,6 +75,11 @@ class ExtendedEquations:
         autonomous = model.period is None
         return ShootingEquations(segments, model.period or self.period_unit, autonomous)
 
+    @property
+    def dear_jacobian(self) -> bool:
+        """As of the shooting equations."""
+        return self.jacobian_method == "finite-differences"
+
     def start_and_period(self, u: FloatArray) -> tuple[FloatArray, float]:
         """State (n,) at the start and the period."""
         return self.shooting(self.parameter(u)).start_and_period(u[:-1])

@@ -19,7 +19,8 @@ SolverMethod = Literal["newton", "levenberg-marquardt"]
 
 _SHORTEST_DAMPING = 2.0**-12
 _SUFFICIENT_DECREASE = 1e-4
-# A Jacobian costs 2 n flows, a trial one: an old one earns its keep if it still gains a digit.
+# A Jacobian by differences costs 2 n flows, a trial one: an old one earns its keep if it still
+# gains a digit.
 _REUSE_DECREASE = 0.1
 _SINGULAR_CONDITION = 1e14
 # Differences leave a singular Jacobian regular by their noise; a failed search gives it away.
@@ -58,6 +59,10 @@ class Equations(Protocol):
 
     def jacobian(self, u: FloatArray) -> sp.csc_array:
         """Derivative (N, N) of the residual."""
+
+    @property
+    def dear_jacobian(self) -> bool:
+        """Whether a Jacobian costs many residuals, so that an old one is worth a try."""
 
     def start_and_period(self, u: FloatArray) -> tuple[FloatArray, float]:
         """State (n,) at the start and the period, for reports."""
@@ -115,8 +120,9 @@ def solve(
 ) -> tuple[FloatArray, FloatArray, tuple[Iteration, ...]]:
     """Solve equations(u) = 0 from u.
 
-    Newton: line search by halving on the Euclidean norm; a step with the previous Jacobian is tried
-    first after a full step and kept only if it cuts the residual tenfold. Levenberg-Marquardt: the
+    Newton: line search by halving on the Euclidean norm; where Jacobians are dear, a step with the
+    previous one is tried first after a full step and kept only if it cuts the residual tenfold.
+    Levenberg-Marquardt: the
     parameter is a factor times the residual norm (Fan & Yuan 2005), the factor adapted by success.
 
     Returns:
@@ -142,10 +148,11 @@ def solve(
     def failure(kind: type[ConvergenceError], why: str, advice: str) -> ConvergenceError:
         x, period = equations.start_and_period(point.u)
         closure = equations.closure(point.residual)
+        where = np.array2string(x, precision=6, max_line_width=1000)
         return kind(
             f"No orbit found: {why} after {len(history) - 1} iterations; the best closure error is "
-            f"{closure:.3g} (goal {tolerance:.1g} of the state scale), at x0 = "
-            f"{np.array2string(x, precision=6, max_line_width=1000)}, period {period:.6g} s. {advice}",
+            f"{closure:.3g} (goal {tolerance:.1g} of the state scale), at x0 = {where}, period "
+            f"{period:.6g} s. {advice}",
             x,
             closure,
             history,
@@ -213,7 +220,7 @@ class _Newton:
             below = (1 - _SUFFICIENT_DECREASE * damping) * point.norm
             trial = _try(self._equations, point.u + damping * direction, below)
             if trial is not None:
-                if damping < 1:
+                if damping < 1 or not self._equations.dear_jacobian:
                     self._solve = None
                 return _Step(trial, damping)
             damping /= 2

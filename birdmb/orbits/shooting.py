@@ -40,6 +40,11 @@ class ShootingEquations:
         scale = self.segments.scale
         return u.reshape(-1, len(scale)) * scale, period
 
+    @property
+    def dear_jacobian(self) -> bool:
+        """Differences cost 2 n flows for each segment, variational equations about one."""
+        return self.segments.jacobian_method == "finite-differences"
+
     def start_and_period(self, u: FloatArray) -> tuple[FloatArray, float]:
         """State (n,) at the start and the period."""
         points, period = self.unpack(u)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import brentq
@@ -96,6 +96,7 @@ class Tracer:
             trivial_index=cycle.trivial_index,
             stability=cycle.stability,
             tangent=plane.tangent(u, cycle.segment_jacobians),
+            next_step=self._steps.first,
             observables={name: float(value(cycle)) for name, value in self._observables.items()},
         )
 
@@ -111,12 +112,13 @@ class Tracer:
         The bifurcations on the way to a point come before it.
         """
         bifurcations = 0
-        point, step = start, self._steps.first
-        u = self.unknowns(point.parameter, point.points, point.period)
+        point, step = start, start.next_step
         while not self._at_end(point):
             if count >= max_points:
                 self._stop("the number of points allowed was reached", point)
                 return
+            # Always from the point as it is kept: a branch that is resumed then takes the same way.
+            u = self.unknowns(point.parameter, point.points, point.period)
             try:
                 new_u, iterations = self._correct(u, point.tangent, step)
                 new = self.point_at(new_u, point.tangent, iterations)
@@ -137,14 +139,15 @@ class Tracer:
             for bifurcation in filter(None, located):
                 yield bifurcation
                 bifurcations += 1
+            jacobians = sum(not iteration.jacobian_reused for iteration in iterations[1:])
+            factor = 2 ** ((_IDEAL_JACOBIANS - jacobians) / 2)
+            step = min(step * min(max(factor, 0.5), 2.0), self._steps.longest)
+            new = replace(new, next_step=step)
             yield new
             if max_bifurcations is not None and bifurcations >= max_bifurcations:
                 self._stop("the number of bifurcations asked for was reached", new)
                 return
-            jacobians = sum(not iteration.jacobian_reused for iteration in iterations[1:])
-            factor = 2 ** ((_IDEAL_JACOBIANS - jacobians) / 2)
-            step = min(step * min(max(factor, 0.5), 2.0), self._steps.longest)
-            point, u, count = new, new_u, count + 1
+            point, count = new, count + 1
 
     def _correct(
         self, u: FloatArray, tangent: FloatArray, step: float

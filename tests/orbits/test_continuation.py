@@ -225,3 +225,41 @@ def test_stability_boundary():
     assert set(data["kind"].values) == {"Neimark-Sacker", ""}
     assert data["reason"].values[2] == "too fast to follow."
     assert len(boundary.plot().axes) == 1
+
+
+class Killed(BaseException):
+    """Stands for a crash."""
+
+
+@pytest.mark.parametrize("after", [1, 2, 5])
+def test_a_killed_run_resumes_on_the_same_branch(tmp_path, after):
+    path = tmp_path / "branch.nc"
+    whole = continue_branch(saddle_node, (1.0, -1.0), steps=COARSE)
+    seen = []
+
+    def kill(item):
+        seen.append(item)
+        if len(seen) == after:
+            raise Killed
+
+    options = {"steps": COARSE, "store": path, "settings": {"system": "saddle node", "speed": 0.2}}
+    with pytest.raises(Killed):
+        continue_branch(saddle_node, (1.0, -1.0), callback=kill, **options)
+    kept = load_branch(path)
+    assert kept.stopped.reason == "the run was interrupted"
+    assert kept.settings == options["settings"]
+    continue_branch(saddle_node, (1.0, -1.0), resume=kept, **options)
+    again = load_branch(path)
+    assert again.stopped is None
+    assert np.array_equal(again.parameters, whole.parameters)
+    assert np.array_equal(again.values("y"), whole.values("y"))
+    assert [b.parameter for b in again.bifurcations] == [b.parameter for b in whole.bifurcations]
+    assert [b.after for b in again.bifurcations] == [b.after for b in whole.bifurcations]
+    assert [file.name for file in tmp_path.iterdir()] == ["branch.nc"]
+
+
+def test_a_finished_branch_is_resumed_without_work():
+    whole = continue_branch(saddle_node, (1.0, 0.5), steps=COARSE)
+    again = continue_branch(saddle_node, (1.0, 0.5), resume=whole)
+    assert again.points == whole.points
+    assert again.stopped is None
