@@ -1,0 +1,33 @@
+"""Arguments and options that several commands share."""
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+class ModelName(StrEnum):
+    """Which model flies the bird."""
+
+    MULTIBODY = "multibody"
+    RIGID = "rigid"
+
+
+class Method(StrEnum):
+    """How the orbit is searched for."""
+
+    NEWTON = "newton"
+    LEVENBERG_MARQUARDT = "levenberg-marquardt"
+
+
+Topology = Annotated[Path, typer.Argument(help="Topology file of the bird (TOML).")]
+Assignments = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="NAME=VALUE",
+        help="Change a value of the bird by its dotted name: body.mass=1.3, "
+        "shoulder.flap.stiffness=20, wing.discretisation=published. Repeatable.",
+    ),
+]

@@ -1,0 +1,137 @@
+"""The commands `birdmb sweep` and `birdmb plot` and their options."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from birdmb.cli.options import Assignments, ModelName, Topology
+from birdmb.cli.outcome import reported
+
+commands = typer.Typer()
+
+
+@commands.command(
+    epilog=(
+        "Exit status: 0 every point is finished, with a limit cycle or the reason why there is "
+        "none; 2 wrong topology, value or option, or a store of another study; 130 interrupted.\n\n"
+        "Example: birdmb sweep topologies/ibis_compliant_shoulder.toml --vary "
+        "shoulder.flap.stiffness=60:5:24 --vary shoulder.flap.damping=0.2,0.1,0 --store study.db"
+    )
+)
+def sweep(
+    topology: Topology,
+    vary: Annotated[
+        list[str],
+        typer.Option(
+            metavar="NAME=VALUES",
+            help="Vary a value of the bird by its dotted name: NAME=FIRST:LAST:COUNT or "
+            "NAME=VALUE,VALUE,... Repeatable, for a grid. Begin where the bird flies well: points "
+            "start from the flights before them.",
+        ),
+    ],
+    store: Annotated[
+        Path,
+        typer.Option(
+            metavar="FILE",
+            help="Keep every finished point in this file (SQLite). If there is one, only what is "
+            "missing in it is computed.",
+        ),
+    ],
+    workers: Annotated[
+        int | None,
+        typer.Option(
+            min=1, metavar="N", help="Processes that compute.", show_default="one for each core"
+        ),
+    ] = None,
+    model: Annotated[
+        ModelName, typer.Option(metavar="MODEL", help="multibody or rigid, as for `birdmb cycle`.")
+    ] = ModelName.MULTIBODY,
+    assignments: Assignments = None,
+    segments: Annotated[int, typer.Option(min=1, metavar="N", help="Shooting segments.")] = 1,
+    tolerance: Annotated[
+        float,
+        typer.Option(
+            metavar="X", help="Closure error accepted, in units of the states' typical sizes."
+        ),
+    ] = 1e-9,
+    max_iterations: Annotated[
+        int, typer.Option(min=1, metavar="N", help="Iterations allowed at a point.")
+    ] = 50,
+    steps_per_beat: Annotated[
+        int | None,
+        typer.Option(
+            min=4,
+            metavar="N",
+            help="Integration steps per wingbeat.",
+            show_default="the model chooses",
+        ),
+    ] = None,
+) -> None:
+    """Find the limit cycles over a grid of values, in parallel; a run that was stopped goes on.
+
+    Every finished point is stored at once, one without a limit cycle with the reason. The results
+    do not depend on the number of workers or on interruptions.
+    """
+    with reported():
+        from birdmb.cli.birds import requested_bird  # noqa: PLC0415
+        from birdmb.cli.variations import requested_variations  # noqa: PLC0415
+
+        bird = requested_bird(topology, assignments or [])
+        variations = requested_variations(bird, vary)
+
+        from birdmb.cli.sweep import run  # noqa: PLC0415 - not before all of it is sound
+
+        run(
+            bird,
+            variations,
+            store,
+            workers=workers,
+            model=model.value,
+            steps_per_beat=steps_per_beat,
+            search={
+                "segments": segments,
+                "tolerance": tolerance,
+                "max_iterations": max_iterations,
+            },
+        )
+
+
+@commands.command(
+    epilog=(
+        "Exit status: 0 drawn; 2 no study, or no such quantity; 130 interrupted.\n\n"
+        "Example: birdmb plot study.db --quantity largest_modulus --out figures"
+    )
+)
+def plot(
+    store: Annotated[Path, typer.Argument(help="Store of a study, finished or not.")],
+    quantity: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME",
+            help="largest_modulus, time_constant, power, climb_rate, mean_speed, residual, ... "
+            "Repeatable.",
+            show_default="the first four in one figure",
+        ),
+    ] = None,
+    at: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME=VALUE",
+            help="Fix a parameter, where more than two were varied. Repeatable.",
+        ),
+    ] = None,
+    out: Annotated[
+        Path,
+        typer.Option(
+            metavar="DIR",
+            help="Write the figures (PNG) and the dataset (NetCDF) into this directory.",
+            show_default="the current one",
+        ),
+    ] = Path(),
+) -> None:
+    """Draw a study: lines over one parameter, maps over two, with the boundary of stability."""
+    with reported():
+        from birdmb.cli.plot import run  # noqa: PLC0415
+
+        run(store, quantity or [], at or [], out)

@@ -1,0 +1,105 @@
+"""The points of a sweep, and from which neighbour each one starts.
+
+The results must depend neither on the number of workers nor on what finishes first, so that the
+neighbour is a function of the point's place in the grid alone. It is also independent of how far
+the grid reaches: values can be appended to a study without changing what it holds already.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from birdmb.studies.sweeps.errors import SweepError
+from birdmb.topology import Bird
+
+Value: TypeAlias = float | int | str | bool
+Place: TypeAlias = tuple[int, ...]
+"""Position in the grid: one index into the values of each parameter."""
+
+# Along each parameter, every fourth value starts from the fourth before and opens a chain of three.
+# Shorter strides leave workers idle, longer ones start further from the flight they look for.
+_STRIDE = 4
+
+
+@dataclass(frozen=True)
+class Grid:
+    """All combinations of the values of some parameters.
+
+    Attributes:
+        parameters: values by dotted name, in the order given.
+    """
+
+    parameters: Mapping[str, tuple[Value, ...]]
+
+    @classmethod
+    def of(cls, bird: Bird, vary: Mapping[str, Sequence[Any]]) -> Grid:
+        """The grid of `vary`, checked for what cannot be meant.
+
+        Raises:
+            TopologyError: the bird has no value of that name.
+            SweepError: no parameter, no values, a value twice or none that can be stored.
+        """
+        if not vary:
+            raise SweepError("A sweep needs at least one parameter to vary.")
+        parameters = {}
+        for name, values in vary.items():
+            bird.value(name)
+            parameters[name] = tuple(_plain(name, value) for value in values)
+            if not parameters[name]:
+                raise SweepError(f"{name} has no values to take.")
+            for i, value in enumerate(parameters[name]):
+                if value in parameters[name][:i]:
+                    raise SweepError(f"{name} is to be {value} twice; keep one of the two.")
+        return cls(parameters)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """How many values each parameter takes."""
+        return tuple(map(len, self.parameters.values()))
+
+    def places(self) -> Iterator[Place]:
+        """All places, the last parameter varying fastest."""
+        return itertools.product(*map(range, self.shape))
+
+    def values(self, place: Place) -> dict[str, Value]:
+        """Values of the parameters, by name, at a place."""
+        return {
+            name: values[i]
+            for i, (name, values) in zip(place, self.parameters.items(), strict=True)
+        }
+
+    def extends(self, other: Grid) -> bool:
+        """Whether every place of `other` has the same values here, and the same parameters."""
+        return list(self.parameters) == list(other.parameters) and all(
+            self.parameters[name][: len(values)] == values
+            for name, values in other.parameters.items()
+        )
+
+
+def parent(place: Place) -> Place | None:
+    """The place whose flight a place starts from: back along the last parameter not at its first.
+
+    `None` for the first place of all, which starts from the model's own guess.
+    """
+    for axis in reversed(range(len(place))):
+        i = place[axis]
+        if i > 0:
+            back = _STRIDE if i % _STRIDE == 0 else 1
+            return (*place[:axis], i - back, *place[axis + 1 :])
+    return None
+
+
+def _plain(name: str, value: Any) -> Value:
+    """The value as one of Python's own, which a store gives back to the last bit."""
+    plain = value.item() if isinstance(value, np.generic) else value
+    if not isinstance(plain, int | float | str):
+        raise SweepError(f"{name} can be swept over numbers and texts, not over {plain!r}.")
+    if isinstance(plain, float) and not math.isfinite(plain):
+        raise SweepError(f"{name} cannot be {plain}.")
+    return plain

@@ -1,0 +1,137 @@
+"""One point of a sweep: a pure function of its task, which a worker runs."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import asdict, dataclass
+from typing import Any, cast
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from birdmb.errors import BirdmbError, OrbitError, StateError
+from birdmb.models import FlightCycle
+from birdmb.models.wing_model import WingModel
+from birdmb.orbits import ArgumentError, find_limit_cycle
+from birdmb.orbits.problem import HasInitialGuess
+from birdmb.studies.cycles import ModelFactory
+from birdmb.studies.sweeps.grid import Value
+from birdmb.studies.sweeps.settings import Search
+from birdmb.studies.validity import assess_validity
+from birdmb.topology import Bird
+
+COLD = "cold"
+
+
+@dataclass(frozen=True)
+class Guess:
+    """A neighbour's flight to start from.
+
+    Attributes:
+        place: the neighbour's, as the store writes it.
+        x0: its state at t = 0, by name.
+    """
+
+    place: str
+    x0: Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class Task:
+    """All that the outcome of a point depends on."""
+
+    bird: Bird
+    model: ModelFactory
+    search: Search
+    values: Mapping[str, Value]
+    guess: Guess | None
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a point.
+
+    Attributes:
+        result: the limit cycle as `described`; `None` if none was found.
+        reason: why none was found, else empty.
+        start: place of the neighbour that the search succeeded from, or "cold" where it had, or was
+            left with, the model's own guess.
+        seconds: how long it took.
+    """
+
+    result: dict[str, Any] | None
+    reason: str
+    start: str
+    seconds: float
+
+
+def compute(task: Task) -> Outcome:
+    """Find the limit cycle of a point, from its neighbour's or else from the model's own guess.
+
+    Raises:
+        ArgumentError: the search is asked for something impossible, whatever the point.
+    """
+    began = time.perf_counter()
+    start, result, reason = COLD, None, ""
+    try:
+        # How many threads share a sum decides its last bits.
+        with threadpool_limits(1):
+            cycle, start = _found(task)
+            result = described(cycle)
+    except ArgumentError:
+        raise
+    except (BirdmbError, ArithmeticError, np.linalg.LinAlgError) as error:
+        reason = " ".join(str(error).split()) or type(error).__name__
+    return Outcome(result, reason, start, time.perf_counter() - began)
+
+
+def prepare(bird: Bird, model: ModelFactory) -> None:
+    """Load or compile the kernels, by flying a beat."""
+    with suppress(BirdmbError):
+        flying = model(bird)
+        if isinstance(flying, HasInitialGuess):
+            flying.flow(flying.initial_guess(), 0.0, bird.period)
+
+
+def _found(task: Task) -> tuple[FlightCycle, str]:
+    model = task.model(task.bird.with_values(task.values))
+    search = asdict(task.search)
+    guess = task.guess
+    # A varied mode of a joint may have given the neighbour other states.
+    if guess is not None and tuple(guess.x0) == model.state_names:
+        with suppress(OrbitError, StateError):
+            x0 = list(guess.x0.values())
+            return cast("FlightCycle", find_limit_cycle(model, x0, **search)), guess.place
+    return cast("FlightCycle", find_limit_cycle(model, **search)), COLD
+
+
+def described(cycle: FlightCycle) -> dict[str, Any]:
+    """What is kept of a limit cycle, fit for JSON: units as in `FlightCycle`, `None` for NaN."""
+    numbers = {
+        "residual": cycle.residual,
+        "integration_error": cycle.integration_error,
+        "energy_imbalance": cycle.energy_imbalance,
+        "mean_speed": cycle.mean_speed,
+        "climb_rate": cycle.mean_climb_rate,
+        "path_angle": cycle.path_angle,
+        "power": cycle.power,
+        "potential_power": cycle.potential_power,
+        "corrected_power": cycle.corrected_power,
+        "cost_of_transport": cycle.cost_of_transport,
+        "period": cycle.period,
+        "iterations": len(cycle.iterations) - 1,
+        "steps_per_beat": cast("WingModel", cycle.model).steps_per_beat,
+    }
+    return {
+        **{name: value if math.isfinite(value) else None for name, value in numbers.items()},
+        "x0": dict(zip(cycle.state_names, cycle.x0.tolist(), strict=True)),
+        "multiplier_real": cycle.multipliers.real.tolist(),
+        "multiplier_imag": cycle.multipliers.imag.tolist(),
+        "multiplier_error": cycle.multiplier_errors.tolist(),
+        "monodromy": cycle.monodromy.tolist(),
+        "stability": cycle.stability,
+        "warning": " ".join(assess_validity(cycle).warnings),
+    }

@@ -1,0 +1,162 @@
+"""Filling a study: points go to workers as soon as their neighbours are finished."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from contextlib import nullcontext
+from dataclasses import dataclass
+from os import PathLike
+from typing import Any
+
+from birdmb.models import MultibodyModel
+from birdmb.orbits.newton import SolverMethod
+from birdmb.studies.cycles import ModelFactory
+from birdmb.studies.sweeps.errors import SweepError
+from birdmb.studies.sweeps.grid import Grid, Place, Value, parent
+from birdmb.studies.sweeps.point import Guess, Outcome, Task, compute
+from birdmb.studies.sweeps.settings import Search, identity
+from birdmb.studies.sweeps.store import Store, place_text
+from birdmb.studies.sweeps.study import Study
+from birdmb.studies.sweeps.workers import process_pool
+from birdmb.topology import Bird
+
+
+@dataclass(frozen=True)
+class Finished:
+    """A point that is finished and stored.
+
+    Attributes:
+        values: of the parameters, by name.
+        outcome: what became of it; `None` for the call before the first point.
+        done: points of the grid that are stored, this one among them.
+        total: points of the grid.
+    """
+
+    values: Mapping[str, Value]
+    outcome: Outcome | None
+    done: int
+    total: int
+
+
+def sweep(
+    bird: Bird,
+    vary: Mapping[str, Sequence[Any]],
+    *,
+    store: str | PathLike[str],
+    executor: Executor | None = None,
+    workers: int | None = None,
+    model: ModelFactory = MultibodyModel,
+    tolerance: float = 1e-9,
+    max_iterations: int = 50,
+    segments: int = 1,
+    method: SolverMethod = "newton",
+    on_point: Callable[[Finished], None] | None = None,
+) -> Study:
+    """Find the limit cycles at all combinations of some parameters' values, in parallel.
+
+    Each point starts from the flight found at a fixed neighbour, or, if that has none, at the
+    nearest of the neighbour's own predecessors that has; where this fails, from the model's own
+    guess. Every finished point is stored at once; called again with the same arguments, `sweep`
+    computes what is missing. Values may be appended to a parameter's; results depend, to the last
+    bit, on neither executor, workers, interruptions nor the order in which values were appended.
+    Where several cycles exist, the order of the values decides which is followed.
+
+    A script must call it under `if __name__ == "__main__":`, for the workers import the script.
+
+    Args:
+        bird: the bird.
+        vary: values (numbers or texts) by dotted name.
+        store: file (SQLite) that keeps the study; made if there is none.
+        executor: computes the points, for instance `dask.distributed.Client.get_executor()`; by
+            default processes of its own.
+        workers: number of those processes; by default one for each core.
+        model: makes the model of a bird: `MultibodyModel`, `RigidModel`, `functools.partial` of
+            them.
+        tolerance, max_iterations, segments, method: of each search, as for `find_limit_cycle`.
+        on_point: called once before the first point, and after every point that has been stored.
+
+    Raises:
+        TopologyError: the bird has no value of that name. A value that is impossible is the failure
+            of its points.
+        SweepError: the store holds another study, or a worker process died.
+        ArgumentError: an impossible tolerance, number of segments or method.
+    """
+    grid = Grid.of(bird, vary)
+    search = Search(tolerance, max_iterations, segments, method)
+    with Store.opened(store, identity(bird, model, search), grid) as opened:
+        filling = _Filling(bird, model, search, grid, opened, on_point)
+        if filling.missing:
+            with nullcontext(executor) if executor else process_pool(workers, bird, model) as pool:
+                filling.run(pool)
+    return Study.open(store)
+
+
+class _Filling:
+    """The points of a study on their way into its store."""
+
+    def __init__(
+        self,
+        bird: Bird,
+        model: ModelFactory,
+        search: Search,
+        grid: Grid,
+        store: Store,
+        on_point: Callable[[Finished], None] | None,
+    ) -> None:
+        self._bird, self._model, self._search = bird, model, search
+        self._grid, self._store, self._on_point = grid, store, on_point
+        self._points = dict(store.contents.points)
+        self.missing = {place for place in grid.places() if place not in self._points}
+        self._followers: dict[Place | None, list[Place]] = {}
+        for place in sorted(self.missing):
+            self._followers.setdefault(parent(place), []).append(place)
+        self._total = len(self.missing) + len(self._points)
+
+    def run(self, pool: Executor) -> None:
+        """Compute what is missing."""
+        self._tell({}, None)
+        running: dict[Future[Outcome], Place] = {}
+
+        def submit_after(before: Place | None) -> None:
+            for place in self._followers.get(before, ()):
+                running[pool.submit(compute, self._task(place))] = place
+
+        try:
+            for ready in (None, *self._points):
+                submit_after(ready)
+            while running:
+                for future in wait(running, return_when=FIRST_COMPLETED).done:
+                    place = running[future]
+                    outcome = future.result()
+                    del running[future]
+                    self._store.add(self._grid, place, outcome)
+                    self._points[place] = outcome
+                    self._tell(self._grid.values(place), outcome)
+                    submit_after(place)
+        except BrokenExecutor as error:
+            raise SweepError(
+                "A worker process died, of too little memory perhaps, or because a script calls "
+                'sweep outside `if __name__ == "__main__":`; finished points are kept, run again '
+                "for the others."
+            ) from error
+        finally:
+            for future in running:
+                future.cancel()
+
+    def _task(self, place: Place) -> Task:
+        values = self._grid.values(place)
+        return Task(self._bird, self._model, self._search, values, self._guess(place))
+
+    def _guess(self, place: Place) -> Guess | None:
+        before = parent(place)
+        while before is not None:
+            result = self._points[before].result
+            if result is not None:
+                return Guess(place_text(before), result["x0"])
+            before = parent(before)
+        return None
+
+    def _tell(self, values: Mapping[str, Value], outcome: Outcome | None) -> None:
+        if self._on_point is not None:
+            self._on_point(Finished(values, outcome, len(self._points), self._total))

@@ -1,0 +1,194 @@
+"""What a sweep has found so far."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import xarray as xr
+from matplotlib.figure import Figure
+
+from birdmb.studies.sweeps import figures
+from birdmb.studies.sweeps.grid import Grid, Place, Value
+from birdmb.studies.sweeps.point import Outcome
+from birdmb.studies.sweeps.store import read
+from birdmb.topology import Bird
+
+_NUMBERS = {
+    "mean_speed": ("m/s", "mean speed"),
+    "climb_rate": ("m/s", "mean climb rate, upwards positive"),
+    "path_angle": ("rad", "angle of the mean path above the horizon"),
+    "power": ("W", "mean power to move the wings against the air"),
+    "potential_power": ("W", "power drawn from sinking"),
+    "corrected_power": ("W", "power as if level"),
+    "cost_of_transport": ("1", "power / (weight x speed)"),
+    "residual": ("1", "closure error of the orbit, in the units of the states"),
+    "integration_error": ("1", "error of a beat's flow, in units of the state scale"),
+    "energy_imbalance": ("1", "what a beat leaves over of the energy; a check"),
+    "period": ("s", "duration of a wingbeat"),
+    "iterations": ("1", "steps of the search"),
+    "steps_per_beat": ("1", "integration steps per wingbeat"),
+}
+_BY_MULTIPLIER = ("multiplier_real", "multiplier_imag", "multiplier_error")
+
+
+@dataclass(frozen=True)
+class Study:
+    """A sweep as its store held it when it was opened.
+
+    Attributes:
+        path: the store.
+        bird: the bird that is varied.
+        identity: what else the results depend on: version, model, search.
+        parameters: values by dotted name.
+        outcomes: of the finished points, by their values' positions in `parameters`.
+    """
+
+    path: Path
+    bird: Bird
+    identity: Mapping[str, Any]
+    parameters: Mapping[str, tuple[Value, ...]]
+    outcomes: Mapping[Place, Outcome]
+
+    @classmethod
+    def open(cls, store: str | PathLike[str]) -> Study:
+        """Read a store, also one that a sweep is filling at the same time.
+
+        Raises:
+            SweepError: there is no such file, or it is no study.
+        """
+        held = read(store)
+        bird = Bird.model_validate(held.identity["bird"])
+        points = {place: held.points[place] for place in sorted(held.points)}
+        return cls(Path(store), bird, held.identity, held.grid.parameters, points)
+
+    @property
+    def total(self) -> int:
+        """Points of the grid, finished or not."""
+        return int(np.prod(Grid(self.parameters).shape))
+
+    @property
+    def failures(self) -> list[tuple[dict[str, Value], str]]:
+        """Values and reason of every point that has no limit cycle."""
+        grid = Grid(self.parameters)
+        return [(grid.values(p), o.reason) for p, o in self.outcomes.items() if o.result is None]
+
+    def to_xarray(self, *, timings: bool = False) -> xr.Dataset:
+        """The study as a labelled dataset with real variables, fit for NetCDF.
+
+        Dimensions: the parameters, `state`, `state_at_start`, `multiplier` (largest modulus first).
+        Where there is no cycle, or none yet, numbers are NaN and texts empty; states that only some
+        points have are NaN at the others. `status` is "found", "failed" or "missing", `failure` the
+        reason, `warning` how a cycle leaves the model's validity, `start` the neighbour that the
+        search started from. The same study gives the same dataset to the last bit, however it was
+        computed; but for `seconds`, which `timings` adds.
+        """
+        found = {place: o.result for place, o in self.outcomes.items() if o.result is not None}
+        states = list(dict.fromkeys(name for result in found.values() for name in result["x0"]))
+        data = self._texts(found)
+        for name, (units, about) in _NUMBERS.items():
+            data[name] = self._filled({p: r[name] for p, r in found.items()})
+            data[name].attrs = {"units": units, "long_name": about}
+        for name in _BY_MULTIPLIER:
+            rows = {p: _padded(r[name], len(states)) for p, r in found.items()}
+            data[name] = self._filled(rows, multiplier=len(states))
+        data["x0"] = self._filled(
+            {p: [r["x0"].get(name, np.nan) for name in states] for p, r in found.items()},
+            state=len(states),
+        )
+        data["monodromy"] = self._filled(
+            {p: _placed(r, states) for p, r in found.items()},
+            state=len(states),
+            state_at_start=len(states),
+        )
+        if timings:
+            data["seconds"] = self._filled({p: o.seconds for p, o in self.outcomes.items()})
+        data |= _derived(data)
+        coordinates: dict[str, Any] = {
+            name: (name, list(values), {"units": "deg"} if name.endswith("_deg") else {})
+            for name, values in self.parameters.items()
+        }
+        coordinates |= {"state": states, "state_at_start": states}
+        return xr.Dataset(
+            data,
+            coords=coordinates | {"multiplier": np.arange(len(states))},
+            attrs={
+                "bird": self.bird.name,
+                "fingerprint": self.identity["fingerprint"],
+                "model": self.identity["model"],
+                "birdmb_version": self.identity["birdmb"],
+                "parameters": list(self.parameters),
+            },
+        )
+
+    def _filled(self, rows: Mapping[Place, Any], **axes: int) -> xr.DataArray:
+        """Values by place, NaN elsewhere, over the parameters and further `axes` (name: length)."""
+        values = np.full((*Grid(self.parameters).shape, *axes.values()), np.nan)
+        for place, row in rows.items():
+            values[place] = row  # None becomes NaN
+        return xr.DataArray(values, dims=[*self.parameters, *axes])
+
+    def _texts(self, found: Mapping[Place, Mapping[str, Any]]) -> dict[str, xr.DataArray]:
+        columns = {
+            "status": {p: "found" if p in found else "failed" for p in self.outcomes},
+            "failure": {p: o.reason for p, o in self.outcomes.items()},
+            "start": {p: o.start for p, o in self.outcomes.items()},
+            "stability": {p: r["stability"] for p, r in found.items()},
+            "warning": {p: r["warning"] for p, r in found.items()},
+        }
+        shape = Grid(self.parameters).shape
+        texts = {}
+        for name, column in columns.items():
+            values = np.full(shape, "missing" if name == "status" else "", dtype=object)
+            for place, text in column.items():
+                values[place] = text
+            texts[name] = xr.DataArray(values.astype(str), dims=list(self.parameters))
+        return texts
+
+    def plot(self, quantity: str | None = None, *, at: Mapping[str, Value] | None = None) -> Figure:
+        """Draw the study: lines over one parameter, maps over two, with the stability boundary.
+
+        Args:
+            quantity: `largest_modulus`, `time_constant`, `power`, `climb_rate` or any other
+                variable of the dataset with one number a point; by default those four.
+            at: fixed values of parameters, by name, until no more than two are left.
+
+        Raises:
+            SweepError: no such quantity or value, or more than two parameters left.
+        """
+        return figures.plot_study(self.to_xarray(timings=True), quantity, at or {})
+
+
+def _derived(data: Mapping[str, xr.DataArray]) -> dict[str, xr.DataArray]:
+    """|Lambda|max, and how fast its mode grows or decays."""
+    parts = data["multiplier_real"], data["multiplier_imag"]
+    moduli = np.hypot(*(part.values for part in parts))
+    # Largest first; in a forced system none is trivial. No point found, no multipliers.
+    largest = moduli[..., 0] if moduli.shape[-1] else np.full(moduli.shape[:-1], np.nan)
+    with np.errstate(divide="ignore"):
+        constant = data["period"].values / np.abs(np.log(largest))
+    about = "time in which the leading disturbance grows or decays by the factor e"
+    return {
+        name: data["period"].copy(data=values).assign_attrs(units=units, long_name=text)
+        for name, values, units, text in (
+            ("largest_modulus", largest, "1", "largest modulus of a multiplier"),
+            ("time_constant", constant, "s", about),
+        )
+    }
+
+
+def _padded(values: list[float], size: int) -> npt.NDArray[np.float64]:
+    return np.array(values + [np.nan] * (size - len(values)))
+
+
+def _placed(result: Mapping[str, Any], states: list[str]) -> npt.NDArray[np.float64]:
+    """The monodromy (n, n) among all states of the study, NaN where the point lacks them."""
+    matrix = np.full((len(states), len(states)), np.nan)
+    own = [states.index(name) for name in result["x0"]]
+    matrix[np.ix_(own, own)] = result["monodromy"]
+    return matrix

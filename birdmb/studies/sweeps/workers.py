@@ -1,0 +1,71 @@
+"""Processes that compute points, and that end with the one that started them, however it ends."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import threading
+from collections.abc import Iterator
+from concurrent.futures import Executor, ProcessPoolExecutor
+from contextlib import contextmanager, suppress
+from multiprocessing.connection import Connection
+
+from birdmb.studies.cycles import ModelFactory
+from birdmb.studies.sweeps.point import prepare
+from birdmb.topology import Bird
+
+
+@contextmanager
+def process_pool(workers: int | None, bird: Bird, model: ModelFactory) -> Iterator[Executor]:
+    """A pool of processes with compiled kernels; by default one for each core.
+
+    Spawned, not forked: a fork would inherit threads and locks of whatever runs beside it. An
+    exception inside ends the processes at once, in the middle of their points.
+    """
+    context = multiprocessing.get_context("spawn")
+    # Nothing is ever sent: that the parent's end is closed, by it or by its death, is the message.
+    lifeline, held = context.Pipe(duplex=False)
+    pool = ProcessPoolExecutor(
+        workers or os.cpu_count(),
+        mp_context=context,
+        initializer=_start,
+        initargs=(lifeline, bird, model),
+    )
+    try:
+        with _interrupts_kept_back():
+            for _ in range(workers or os.cpu_count() or 1):
+                pool.submit(int)  # the pool starts a process for each task that finds none idle
+        yield pool
+    except BaseException:
+        held.close()
+        raise
+    finally:
+        pool.shutdown(cancel_futures=True)
+        held.close()
+        lifeline.close()
+
+
+@contextmanager
+def _interrupts_kept_back() -> Iterator[None]:
+    """Keep Ctrl-C, which a terminal sends to all processes, from those started within."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _start(lifeline: Connection, bird: Bird, model: ModelFactory) -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with, args=(lifeline,), daemon=True).start()
+    prepare(bird, model)
+
+
+def _end_with(lifeline: Connection) -> None:
+    with suppress(EOFError, OSError):
+        lifeline.recv()
+    os._exit(1)
