@@ -1,5 +1,5 @@
 from .errors import BirdmbError, OrbitError, StateError, TopologyError
-from .models import Beat, Flight, FlightCycle, Loads, MultibodyModel, RigidModel
+from .models import Beat, Flight, FlightCycle, Loads, MultibodyModel, RigidModel, TetheredModel
 from .orbits import (
     Branch,
     ConvergenceError,
@@ -43,6 +43,7 @@ __all__ = [
     "OrbitError",
     "RigidModel",
     "StateError",
+    "TetheredModel",
     "TopologyError",
     "Trim",
     "TrimError",

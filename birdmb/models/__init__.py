@@ -3,7 +3,7 @@
 from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import Beat, FlightCycle
 from birdmb.models.loads import Loads
-from birdmb.models.multibody import MultibodyModel
+from birdmb.models.multibody import MultibodyModel, TetheredModel
 from birdmb.models.rigid import RigidModel
 from birdmb.models.wing_model import WingModel
 
@@ -14,5 +14,6 @@ __all__ = [
     "Loads",
     "MultibodyModel",
     "RigidModel",
+    "TetheredModel",
     "WingModel",
 ]

@@ -21,6 +21,7 @@ from birdmb.topology import BONES, Bird
 
 BODY_COORDINATES = 3
 DRIVEN_INERTIA = 1e12
+_NEXT_TO_NO_MASS = 1e-30
 _MIRROR = np.diag([1.0, -1.0, 1.0])
 
 # (t, coordinates, velocities) -> generalised forces or accelerations, all (n,)
@@ -102,6 +103,8 @@ def _add_wing(
         inertia = axes @ side @ np.array(segment.inertia) @ side @ axes.T
         links[parent].add_body(segment.mass, centre, inertia)
         place = place + axes @ side @ np.array([0.0, segment.length, 0.0])
+    # Exudyn divides by the mass that hangs on a link: one that carries none gives NaN.
+    links[-1].mass = max(links[-1].mass, _NEXT_TO_NO_MASS)
 
 
 class ExudynBird:

@@ -1,7 +1,7 @@
 """The multibody bird in Exudyn, its joints prescribed or compliant (MODEL section 8)."""
 
 from functools import cached_property, lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -12,9 +12,11 @@ from birdmb.errors import StateError
 from birdmb.models.exudyn_tree import BODY_COORDINATES, ExudynBird
 from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
+from birdmb.models.implicit import integrate_implicitly
+from birdmb.models.integration import Integration, Integrator, integration_for
 from birdmb.models.multibody_kernel import body_velocity, wing_forces
 from birdmb.models.rigid import RigidModel
-from birdmb.models.steps import steps_for
+from birdmb.models.springs import Springs
 from birdmb.models.wing_model import (
     BODY_SCALE,
     BODY_STATES,
@@ -22,6 +24,7 @@ from birdmb.models.wing_model import (
     WingModel,
     lifting_line_lost,
 )
+from birdmb.orbits import LimitCycle
 from birdmb.topology import Bird
 from birdmb.wing.shape import WingShape, wing_shape
 
@@ -46,30 +49,49 @@ class MultibodyModel(WingModel):
     `shoulder.flap` and `shoulder.flap.rate`. Left and right wing move as mirror images. The point
     whose velocity is `u`, `w` is the centre of mass of the body without its wings.
 
-    Integrated by Exudyn's explicit RK67 (order 6) with fixed steps, for shooting needs a flow that
-    is smooth in its start. By default there are as many as the fastest motion of the joints needs.
+    Integrated with fixed steps, for shooting needs a flow that is smooth in its start: by Exudyn's
+    explicit RK67 (order 6) with as many steps as the fastest motion of the joints needs, or, where
+    that would be too many, by implicit Radau IIA (order 5). `integration` tells which.
+
+    Args:
+        bird: the bird.
+        steps_per_beat: integration steps per wingbeat; by default the model chooses.
+        integrator: "explicit", "implicit", or "auto" for the model to choose.
     """
 
-    limit_cycle_type = FlightCycle
+    limit_cycle_type: type[LimitCycle] = FlightCycle
+    # How many of the states are the body's: all four, unless it is held.
+    _body_states = len(BODY_STATES)
 
-    def __init__(self, bird: Bird, *, steps_per_beat: int | None = None) -> None:
+    def __init__(
+        self, bird: Bird, *, steps_per_beat: int | None = None, integrator: Integrator = "auto"
+    ) -> None:
         super().__init__(bird, steps_per_beat=steps_per_beat)
+        self._integrator: Integrator = integrator
         names = [joint.name for joint in bird.compliant_joints]
-        self.state_names = BODY_STATES + tuple(n for j in names for n in (j, f"{j}.rate"))
-        self.state_units = BODY_UNITS + ("rad", "rad/s") * len(names)
+        free = self._body_states
+        self.state_names = BODY_STATES[:free] + tuple(n for j in names for n in (j, f"{j}.rate"))
+        self.state_units = BODY_UNITS[:free] + ("rad", "rad/s") * len(names)
         self._compliant = np.array([joint.mode == "compliant" for joint in bird.joints], dtype=bool)
-        self._stiffness = np.array([j.stiffness or 0.0 for j in bird.joints]) * self._compliant
-        self._damping = np.array([j.damping or 0.0 for j in bird.joints]) * self._compliant
+        self._springs = Springs(bird)
         self.turning = self._joints_that_turn_the_wing_as_a_whole()
         # Every trajectory and every perturbation of it asks for the same instants again.
         self.instant = lru_cache(maxsize=_INSTANTS_KEPT)(self._make_instant)
 
+    def _options(self) -> dict[str, Any]:
+        return {**super()._options(), "integrator": self._integrator}
+
     @cached_property
+    def integration(self) -> Integration:
+        """Method and steps per beat: as wanted, or as the fastest joint motion needs."""
+        if not self._compliant.any() and self._integrator == "auto":
+            return Integration("explicit", super().steps_per_beat)
+        return integration_for(self, self._steps_wanted, self._integrator)
+
+    @property
     def steps_per_beat(self) -> int:
-        """Integration steps per wingbeat: as wanted, or as the fastest joint motion needs."""
-        if self._steps_wanted is not None or not self._compliant.any():
-            return super().steps_per_beat
-        return steps_for(self)
+        """Integration steps per wingbeat."""
+        return self.integration.steps_per_beat
 
     @property
     def mass(self) -> float:
@@ -79,20 +101,19 @@ class MultibodyModel(WingModel):
     @property
     def state_scale(self) -> FloatArray:
         """Typical sizes of the states, (n,)."""
-        return np.array(BODY_SCALE + _JOINT_SCALE * int(self._compliant.sum()))
+        joints = int(self._compliant.sum())
+        return np.array(BODY_SCALE[: self._body_states] + _JOINT_SCALE * joints)
 
     def joint_motion(self, t: float, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Angles (J,) rad and rates (J,) rad/s of the right wing's joints at t (s) in state x."""
         angles, rates, _ = driven(self.wing, t)
-        angles[self._compliant] = x[4::2]
-        rates[self._compliant] = x[5::2]
+        angles[self._compliant] = x[self._body_states :: 2]
+        rates[self._compliant] = x[self._body_states + 1 :: 2]
         return angles, rates
 
     def flow(self, x0: npt.ArrayLike, t0: float, t1: float) -> FloatArray:
         """State (n,) at t1 (s) of the flight through x0 (n,) at t0; raises `StateError`."""
-        steps = self._steps(t0, t1)
-        q, v = self._exudyn.integrate(*self.coordinates(t0, np.asarray(x0, float)), t0, t1, steps)
-        return self._state(q, v, f"between t = {t0:.4g} and {t1:.4g} s")
+        return self._advanced(np.asarray(x0, dtype=float), t0, t1, self._steps(t0, t1))
 
     def trajectory(
         self, x0: npt.ArrayLike, t0: float, t1: float, times: npt.ArrayLike | None = None
@@ -104,26 +125,32 @@ class MultibodyModel(WingModel):
         states[0] = np.asarray(x0, dtype=float)
         for i, t in enumerate(grid):
             if i > 0:
-                q, v = self._exudyn.integrate(
-                    *self.coordinates(grid[i - 1], states[i - 1]), grid[i - 1], t, 1
-                )
-                states[i] = self._state(q, v, f"before t = {t:.4g} s")
+                states[i] = self._advanced(states[i - 1], grid[i - 1], t, 1)
             rates[i] = self.rhs(t, states[i])
         flight = Flight(self.state_names, grid, states, rates)
         return flight if times is None else flight.at(times)
+
+    def _advanced(self, x: FloatArray, t0: float, t1: float, steps: int) -> FloatArray:
+        if self.integration.method == "implicit":
+            return integrate_implicitly(self.rhs, x, t0, t1, steps, self.state_scale)
+        q, v = self._exudyn.integrate(*self.coordinates(t0, x), t0, t1, steps)
+        return self._state(q, v, f"between t = {t0:.4g} and {t1:.4g} s")
 
     def rhs(self, t: float, x: npt.ArrayLike) -> FloatArray:
         """Rates (n,) of the states at t (s), by exact partition of the equations of motion."""
         state = np.asarray(x, dtype=float)
         _, v = self.coordinates(t, state)
         a, _ = self.accelerations(t, state)
-        _, _, q, theta = state[:4]
+        u, w, q, theta = self.body_state(state)
         u_rate, w_rate = body_velocity(theta, a[0], a[1])
-        rates = np.empty_like(state)
-        rates[:4] = u_rate - q * state[1], w_rate + q * state[0], a[2], q
         joints = np.flatnonzero(self._compliant) + BODY_COORDINATES
-        rates[4::2], rates[5::2] = v[joints], a[joints]
-        return rates
+        return self._own([u_rate - q * w, w_rate + q * u, a[2], q], v[joints], a[joints])
+
+    def _own(self, body: npt.ArrayLike, angles: FloatArray, rates: FloatArray) -> FloatArray:
+        """A state, or its rates, from the body's part (4,) and the compliant joints' parts."""
+        return np.concatenate(
+            [np.asarray(body)[: self._body_states], np.column_stack([angles, rates]).ravel()]
+        )
 
     def accelerations(self, t: float, x: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Accelerations (n,) of all coordinates and the actuators' forces (n,) on them.
@@ -160,21 +187,13 @@ class MultibodyModel(WingModel):
         start = self.driven_state()
         if not self._compliant.any():
             return start
-        held = self.prescribed.copy()
-        held[:BODY_COORDINATES] = True
-        frozen = ExudynBird(self.bird, self._forces, held, self.driver_accelerations)
-        q, v = self.coordinates(0.0, start)
-        T = self.bird.period
-        for _ in range(_BEATS_TO_SETTLE):
-            q, v = frozen.integrate(q, v, 0.0, T, self.steps_per_beat)
-        settled = self._state(q, v, "while the compliant joints settled for a first guess")
-        return np.concatenate([start[:4], settled[4:]])
+        tethered = TetheredModel(self.bird, start[:4], **self._options())
+        return np.concatenate([start[:4], tethered.initial_guess()])
 
     def driven_state(self, t: float = 0.0) -> FloatArray:
         """State (n,) at t (s) of the body in mean trim, with compliant joints on their drivers."""
         angles, rates, _ = driven(self.wing, t)
-        joints = np.column_stack([angles, rates])[self._compliant].ravel()
-        return np.concatenate([self._trim, joints])
+        return self._own(self._trim, angles[self._compliant], rates[self._compliant])
 
     @cached_property
     def _trim(self) -> FloatArray:
@@ -183,8 +202,9 @@ class MultibodyModel(WingModel):
     @cached_property
     def prescribed(self) -> BoolArray:
         """Which of the tree's coordinates (n,) follow a driver."""
+        body = np.full(BODY_COORDINATES, self._body_states == 0)
         joints = ~self._compliant
-        return np.concatenate([np.zeros(BODY_COORDINATES, bool), joints, joints])
+        return np.concatenate([body, joints, joints])
 
     @cached_property
     def _exudyn(self) -> ExudynBird:
@@ -192,7 +212,7 @@ class MultibodyModel(WingModel):
 
     def coordinates(self, t: float, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Coordinates and velocities (n,) of the tree, with X = Z = 0, of state x at time t."""
-        u, w, q, theta = x[:4]
+        u, w, q, theta = self.body_state(x)
         c, s = np.cos(theta), np.sin(theta)
         angles, rates = self.joint_motion(t, x)
         return (
@@ -208,7 +228,7 @@ class MultibodyModel(WingModel):
             )
         joints = np.flatnonzero(self._compliant) + BODY_COORDINATES
         u, w = body_velocity(q[2], v[0], v[1])
-        return np.concatenate([[u, w, v[2], q[2]], np.column_stack([q[joints], v[joints]]).ravel()])
+        return self._own([u, w, v[2], q[2]], q[joints], v[joints])
 
     def _joints_that_turn_the_wing_as_a_whole(self) -> int:
         """How many joints at the shoulder only turn a shape that the other joints determine.
@@ -277,10 +297,56 @@ class MultibodyModel(WingModel):
         return np.concatenate([np.zeros(BODY_COORDINATES), torques, torques])
 
     def _spring_torques(self, driver: Instant, angles: FloatArray, rates: FloatArray) -> FloatArray:
-        torques = self._stiffness * (driver.angles - angles)
-        torques += self._damping * (driver.rates - rates)
-        return torques
+        return self._springs.torques(angles - driver.angles, rates - driver.rates)
 
     def driver_accelerations(self, t: float) -> FloatArray:
         """Accelerations (n,) that drivers give to the prescribed coordinates; 0 elsewhere."""
         return self.instant(t).accelerations
+
+
+class TetheredModel(MultibodyModel):
+    """The multibody bird in a wind tunnel: its body held in steady motion, its joints free.
+
+    The states are the compliant joints' angles (rad) and rates (rad/s).
+
+    Args:
+        bird: the bird.
+        body_state: u, w (m/s), q = 0 and theta (rad) of the body, (4,).
+        steps_per_beat: integration steps per wingbeat; by default the model chooses.
+        integrator: "explicit", "implicit", or "auto" for the model to choose.
+
+    Raises:
+        ValueError: the body turns.
+    """
+
+    limit_cycle_type = LimitCycle
+    _body_states = 0
+
+    def __init__(
+        self,
+        bird: Bird,
+        body_state: npt.ArrayLike,
+        *,
+        steps_per_beat: int | None = None,
+        integrator: Integrator = "auto",
+    ) -> None:
+        super().__init__(bird, steps_per_beat=steps_per_beat, integrator=integrator)
+        self._held = np.array(body_state, dtype=float)
+        if self._held.shape != (4,) or self._held[2] != 0.0:
+            raise ValueError(
+                "body_state must be u, w, q, theta with q = 0: a held body cannot turn."
+            )
+
+    def _options(self) -> dict[str, Any]:
+        return {**super()._options(), "body_state": self._held}
+
+    def body_state(self, x: FloatArray) -> FloatArray:  # noqa: ARG002
+        """The body's state (4,), whatever the joints do."""
+        return self._held
+
+    def initial_guess(self) -> FloatArray:
+        """State (n,) of the joints at t = 0, after some beats from their drivers."""
+        x = self.driven_state()
+        for _ in range(_BEATS_TO_SETTLE):
+            x = self.flow(x, 0.0, self.bird.period)
+        return x

@@ -62,6 +62,10 @@ class WingModel(ABC):
     def flow(self, x0: npt.ArrayLike, t0: float, t1: float) -> FloatArray:
         """State (n,) at t1 (s) of the flight through x0 (n,) at t0; raises `StateError`."""
 
+    def body_state(self, x: FloatArray) -> FloatArray:
+        """The body's part u, w, q, theta (4,) of a state."""
+        return x[:4]
+
     def joint_motion(self, t: float, _x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Angles (J,) rad and rates (J,) rad/s of the right wing's joints at time t (s)."""
         angles, rates, _ = driven(self.wing, t)
@@ -88,7 +92,7 @@ class WingModel(ABC):
         if not shape.converged:
             raise lifting_line_lost(self.bird, t, angles)
         elements = place_elements(shape, self.wing.root)
-        found = element_loads(elements, self.bird.air.density, *state[:3])
+        found = element_loads(elements, self.bird.air.density, *self.body_state(state)[:3])
         torques = joint_torques(
             self.wing,
             joint_chain(self.wing, angles),

@@ -210,8 +210,9 @@ class Segment(Part):
 class Joint(Part):
     """A one-axis joint at the root of the segment it carries.
 
-    The driver is q(t) = offset + amplitude sin(2 pi f t + phase). A prescribed joint follows it
-    exactly, a compliant one through a spring and a damper.
+    The driver is q_d(t) = offset + amplitude sin(2 pi f t + phase). A prescribed joint follows it
+    exactly, a compliant one through a spring and a damper in series with it, whose torque is
+    -k (q - q_d) - k_3 (q - q_d)^3 - C (q' - q_d'), k another one below the driver if so given.
     """
 
     angles: ClassVar[tuple[str, ...]] = ("offset", "amplitude", "phase")
@@ -224,6 +225,13 @@ class Joint(Part):
     )
     stiffness: NonNegative | None = Field(default=None, description="joint stiffness, N m/rad")
     damping: NonNegative | None = Field(default=None, description="joint damping, N m s/rad")
+    cubic_stiffness: NonNegative = Field(
+        default=0.0, description="stiffening with the cube of the deflection, N m/rad^3"
+    )
+    stiffness_below: NonNegative | None = Field(
+        default=None,
+        description="stiffness where the joint is below its driver, N m/rad, if another than above",
+    )
     offset: Number = Field(default=0.0, description="mean angle; rad, degrees as offset_deg")
     amplitude: Number = Field(default=0.0, description="amplitude; rad, degrees as amplitude_deg")
     phase: Number = Field(default=0.0, description="phase at t = 0; rad, degrees as phase_deg")

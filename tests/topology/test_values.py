@@ -155,7 +155,7 @@ WRONG = {
     "unknown name": (
         lambda bird: bird.with_values({"shoulder.flap.stifness": 1}),
         'ibis: no value is called "shoulder.flap.stifness"; the nearest: '
-        "shoulder.flap.stiffness, shoulder.sweep.stiffness, shoulder.pitch.stiffness",
+        "shoulder.flap.stiffness, shoulder.flap.stiffness_below, shoulder.flap.cubic_stiffness",
     ),
     "unknown name read": (
         lambda bird: bird.value("wing.roots.x"),
