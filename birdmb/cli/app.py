@@ -1,12 +1,13 @@
 """The commands and their options."""
 
-from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from birdmb.cli.options import Assignments, Method, ModelName, Topology
 from birdmb.cli.outcome import reported
+from birdmb.cli.study_commands import commands as study_commands
 
 app = typer.Typer(
     name="birdmb",
@@ -28,32 +29,6 @@ app = typer.Typer(
     rich_markup_mode="markdown",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-
-
-class ModelName(StrEnum):
-    """Which model flies the bird."""
-
-    MULTIBODY = "multibody"
-    RIGID = "rigid"
-
-
-class Method(StrEnum):
-    """How the orbit is searched for."""
-
-    NEWTON = "newton"
-    LEVENBERG_MARQUARDT = "levenberg-marquardt"
-
-
-Topology = Annotated[Path, typer.Argument(help="Topology file of the bird (TOML).")]
-Assignments = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--set",
-        metavar="NAME=VALUE",
-        help="Change a value of the bird by its dotted name: body.mass=1.3, "
-        "shoulder.flap.stiffness=20, wing.discretisation=published. Repeatable.",
-    ),
-]
 
 
 def _show_version(wanted: bool) -> None:
@@ -182,6 +157,131 @@ def check(topology: Topology, assignments: Assignments = None) -> None:
         from birdmb.cli.check import run  # noqa: PLC0415
 
         run(bird)
+
+
+@app.command(
+    epilog=(
+        "Exit status: 0 followed, to an end of the range or not; 1 no flight at the start of the "
+        "range; 2 wrong topology, value or option; 130 interrupted.\n\n"
+        "Example: birdmb branch topologies/ibis_compliant_shoulder.toml --parameter "
+        "shoulder.flap.stiffness --from 60 --to 2 --out results"
+    )
+)
+def branch(
+    topology: Topology,
+    parameter: Annotated[
+        str,
+        typer.Option(
+            metavar="NAME",
+            help="Dotted name of the number to vary: shoulder.flap.stiffness, gait.frequency, "
+            "wing.root.x.",
+        ),
+    ],
+    start: Annotated[float, typer.Option("--from", metavar="X", help="Where the branch starts.")],
+    stop: Annotated[
+        float,
+        typer.Option("--to", metavar="X", help="Which way it goes, and the end of the range."),
+    ],
+    model: Annotated[
+        ModelName, typer.Option(metavar="MODEL", help="multibody or rigid, as for `birdmb cycle`.")
+    ] = ModelName.MULTIBODY,
+    assignments: Assignments = None,
+    max_points: Annotated[
+        int, typer.Option(min=2, metavar="N", help="Flights allowed, those resumed from included.")
+    ] = 200,
+    store: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="Keep the branch in this file (NetCDF), saved after every point.",
+            show_default="branch.nc in the directory of --out",
+        ),
+    ] = None,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Go on with the branch in that file, if there is one.")
+    ] = False,
+    out: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="Write a picture (branch.png) into this directory."),
+    ] = None,
+    json: Annotated[
+        bool, typer.Option("--json", help="Print one JSON object to standard output, no tables.")
+    ] = False,
+    segments: Annotated[int, typer.Option(min=1, metavar="N", help="Shooting segments.")] = 1,
+    tolerance: Annotated[
+        float,
+        typer.Option(
+            metavar="X", help="Closure error accepted, in units of the states' typical sizes."
+        ),
+    ] = 1e-9,
+    longest_step: Annotated[
+        float,
+        typer.Option(
+            min=1e-6,
+            metavar="X",
+            help="Longest step along the branch, in parameter ranges and typical sizes of states.",
+        ),
+    ] = 0.1,
+    steps_per_beat: Annotated[
+        int | None,
+        typer.Option(
+            min=4,
+            metavar="N",
+            help="Integration steps per wingbeat.",
+            show_default="the most the model chooses over the range",
+        ),
+    ] = None,
+) -> None:
+    """Follow the limit cycle of a bird in one parameter, past folds, and find where stability ends.
+
+    Each flight is a line on standard error and is saved at once; a run that was stopped goes on
+    with --resume, on the very same branch. Folds, period doublings and Neimark-Sacker bifurcations
+    between the flights are located.
+    """
+    with reported(as_json=json):
+        from birdmb.cli.birds import requested_bird  # noqa: PLC0415
+
+        bird = requested_bird(topology, assignments or [])
+
+        from birdmb.cli.branch import Following, run  # noqa: PLC0415
+
+        run(
+            bird,
+            Following(
+                parameter=parameter,
+                start=start,
+                stop=stop,
+                model=model.value,
+                max_points=max_points,
+                segments=segments,
+                tolerance=tolerance,
+                steps_per_beat=steps_per_beat,
+                longest_step=longest_step,
+            ),
+            store=store,
+            resume=resume,
+            out=out,
+            as_json=json,
+        )
+
+
+@app.command(
+    epilog="Exit status: 0; 2 wrong option; 130 interrupted. Takes a minute or two.\n\n"
+    "Example: birdmb validate"
+)
+def validate(
+    topologies: Annotated[
+        Path, typer.Option(metavar="DIR", help="Directory of the shipped topology files.")
+    ] = Path("topologies"),
+) -> None:
+    """Print what the thesis published against what is computed here, with the command behind it."""
+    with reported(as_json=False):
+        from birdmb.cli.validate import run  # noqa: PLC0415
+
+        run(topologies)
+
+
+app.add_typer(study_commands)
 
 
 def main() -> None:
