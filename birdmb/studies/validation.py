@@ -6,12 +6,13 @@ Each case is flown by the command that it names, so that a reader can take it fr
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 
 from birdmb.errors import BirdmbError
 from birdmb.models import FlightCycle, MultibodyModel, RigidModel
-from birdmb.orbits import LimitCycle, OdeModel, find_limit_cycle
+from birdmb.orbits import OdeModel, find_limit_cycle
 from birdmb.studies.trim import trim_flight
 from birdmb.topology import Bird, load_bird
 
@@ -136,7 +137,7 @@ def _chapter_8(topologies: Path) -> Iterator[Case]:
         def computed(k: float = k, c: float = c) -> Quantities:
             bird = load_bird(topologies / "ibis_thesis_ch8.toml")
             bird = bird.with_joint("shoulder.flap", stiffness=k, damping=c)
-            flight: FlightCycle = find_limit_cycle(MultibodyModel(bird))
+            flight = cast(FlightCycle, find_limit_cycle(MultibodyModel(bird)))
             values = (abs(flight.multipliers[0]), flight.power, flight.potential_power)
             return dict(zip(_CHAPTER_8, map(float, values), strict=True))
 
@@ -163,9 +164,7 @@ def _appendix_a() -> Iterator[Case]:
                 lambda _, x: np.array([-x[1] - x[2], x[0] + 0.15 * x[1], 0.2 + x[2] * (x[0] - c)]),
                 ("x", "y", "z"),
             )
-            cycle: LimitCycle = find_limit_cycle(
-                model, guess, period_guess=period_guess, segments=4
-            )
+            cycle = find_limit_cycle(model, guess, period_guess=period_guess, segments=4)
             others = np.delete(cycle.multipliers, cycle.trivial_index or 0)
             return {"period": cycle.period, "largest |multiplier|": float(np.abs(others).max())}
 
