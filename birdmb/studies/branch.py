@@ -1,0 +1,240 @@
+"""A branch of limit cycles of a bird along one of its parameters, through folds and past them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from concurrent.futures import Executor
+from functools import partial
+from pathlib import Path
+from typing import Any, TypeAlias, cast
+
+import numpy as np
+
+from birdmb._typing import FloatArray
+from birdmb.errors import BirdmbError, StateError, TopologyError
+from birdmb.models import FlightCycle, MultibodyModel
+from birdmb.models.wing_model import WingModel
+from birdmb.orbits import (
+    ArgumentError,
+    Bifurcation,
+    Branch,
+    BranchPoint,
+    LimitCycle,
+    Steps,
+    continue_branch,
+)
+from birdmb.studies.validity import Validity, assess_validity
+from birdmb.topology import Bird
+
+BirdModel: TypeAlias = Callable[..., WingModel]
+"""Makes a model of a bird: `MultibodyModel`, `RigidModel`, or either with options bound."""
+
+_SAMPLES = 9
+_DEFAULT_STEPS = Steps()
+
+OBSERVABLE_UNITS: Mapping[str, str] = {
+    "mean_speed": "m/s",
+    "mean_climb_rate": "m/s",
+    "power": "W",
+    "mean_pitch": "rad",
+    "highest_flap": "rad",
+    "lowest_flap": "rad",
+    "largest_angle_of_attack": "rad",
+    "reduced_frequency": "1",
+    "integration_error": "1",
+}
+
+
+def bird_branch(
+    bird: Bird,
+    name: str,
+    parameter_range: tuple[float, float],
+    model: BirdModel = MultibodyModel,
+    *,
+    steps_per_beat: int | None = None,
+    segments: int = 1,
+    steps: Steps = _DEFAULT_STEPS,
+    max_points: int = 200,
+    max_bifurcations: int | None = None,
+    tolerance: float = 1e-9,
+    resume: Branch | None = None,
+    store: str | Path | None = None,
+    executor: Executor | None = None,
+    callback: Callable[[BranchPoint | Bifurcation], None] | None = None,
+) -> Branch:
+    """Follow the limit cycles of a bird in one parameter by `continue_branch`.
+
+    One method and number of integration steps holds for the whole branch: a model that chose its
+    own from value to value would make the orbits jump.
+
+    Args:
+        bird: the bird.
+        name: dotted name of the parameter, any number of the bird: a joint's stiffness or damping,
+            of the gait, of the geometry.
+        parameter_range: from where to where, in the unit of the name. The branch starts at the
+            first, which it may come back to.
+        model: makes the model of a bird.
+        steps_per_beat: integration steps; by default the most that the model chooses at any of 9
+            values over the range, and a multiple of `segments`.
+        segments: number of shooting segments.
+        steps: step sizes along the branch.
+        max_points: number of points allowed, those resumed from included.
+        max_bifurcations: end at the first point after so many bifurcations.
+        tolerance: closure error accepted, in units of the state scale.
+        resume: an unfinished branch of the same bird, range, model and settings to go on with.
+        store: file in which the branch is saved after every point.
+        executor: spreads flows over workers.
+        callback: called with every point and every bifurcation as it is found.
+
+    Returns:
+        The branch. Observables of its points, in SI units and rad (`OBSERVABLE_UNITS`): mean
+        `mean_speed`, `mean_climb_rate`, `power` and `mean_pitch` over a beat, `highest_flap` and
+        `lowest_flap` that the joint `shoulder.flap` reaches (where the bird has one), how far the
+        flight is from the limits of the model (`largest_angle_of_attack`, `reduced_frequency`, see
+        `assess_validity`), and `integration_error` (see `FlightCycle`). Its `settings` say which
+        bird this is (`fingerprint`, that at the start of the range) and how it was computed.
+
+    Raises:
+        TopologyError: an unknown name, or an impossible value at the start of the range.
+        ArgumentError: the name is not that of a number, or `resume` is another branch.
+        OrbitError: no limit cycle at the start of the range.
+        StateError: the search there could not start.
+    """
+    first, last = map(float, parameter_range)
+    if first == last:
+        raise ArgumentError(f"{name} must have two different ends, not {first:g} twice.")
+    _reject_no_number(bird, name)
+    start = bird.with_values({name: first})
+    integration = _integration(bird, name, (first, last), model, steps_per_beat)
+    if steps_per_beat is None:
+        integration["steps_per_beat"] = -(-integration["steps_per_beat"] // segments) * segments
+    family = partial(_member, bird, name, partial(model, **integration))
+    settings: dict[str, str | float] = {
+        "bird": start.name,
+        "fingerprint": start.fingerprint(),
+        "parameter": name,
+        "from": first,
+        "to": last,
+        "model": type(family(first)).__name__,
+        **integration,
+        "segments": segments,
+        "tolerance": tolerance,
+        "longest_step": steps.longest,
+    }
+    if resume is not None:
+        _reject_another(resume, settings)
+    return continue_branch(
+        family,
+        (first, last),
+        parameter_name=name,
+        segments=segments,
+        steps=steps,
+        max_points=max_points,
+        max_bifurcations=max_bifurcations,
+        tolerance=tolerance,
+        observables=_observables(bird),
+        resume=resume,
+        store=store,
+        settings=settings,
+        executor=executor,
+        callback=callback,
+    )
+
+
+def _member(bird: Bird, name: str, model: BirdModel, value: float) -> WingModel:
+    return model(bird.with_values({name: value}))
+
+
+def _reject_no_number(bird: Bird, name: str) -> None:
+    value = bird.value(name)
+    # What is not given yet, such as the stiffness of a prescribed joint, may still be a number.
+    if not isinstance(value, float | None):
+        raise ArgumentError(f"{name} is not a real number: no branch can follow it.")
+
+
+def _integration(
+    bird: Bird,
+    name: str,
+    parameter_range: tuple[float, float],
+    model: BirdModel,
+    steps_per_beat: int | None,
+) -> dict[str, Any]:
+    """Options of the model that meet its needs over the range, wherever it has an answer."""
+    options = {} if steps_per_beat is None else {"steps_per_beat": steps_per_beat}
+    members: list[WingModel] = []
+    failure: BirdmbError | None = None
+    for value in np.linspace(*parameter_range, _SAMPLES):
+        try:
+            member = model(bird.with_values({name: float(value)}), **options)
+            _ = member.steps_per_beat
+            members.append(member)
+        except (TopologyError, StateError) as error:
+            failure = failure or error
+    if not members:
+        raise cast(BirdmbError, failure)
+    implicit = [m for m in members if isinstance(m, MultibodyModel) and _is_implicit(m)]
+    found: dict[str, Any] = {"steps_per_beat": max(m.steps_per_beat for m in implicit or members)}
+    if isinstance(members[0], MultibodyModel):
+        found["integrator"] = "implicit" if implicit else "explicit"
+    return found
+
+
+def _is_implicit(model: MultibodyModel) -> bool:
+    return model.integration.method == "implicit"
+
+
+def _reject_another(branch: Branch, settings: Mapping[str, str | float]) -> None:
+    for key, wanted in settings.items():
+        kept = branch.settings.get(key)
+        if kept == wanted:
+            continue
+        if key == "fingerprint":
+            raise ArgumentError(
+                f"the branch to resume is of another {branch.settings.get('bird', 'system')}: "
+                f"a value other than {settings['parameter']} differs."
+            )
+        raise ArgumentError(
+            f"the branch to resume was computed with {key.replace('_', ' ')} {_shown(kept)}, "
+            f"not {_shown(wanted)}."
+        )
+
+
+def _shown(value: str | float | None) -> str:
+    return f"{value:g}" if isinstance(value, int | float) else str(value)
+
+
+def _observables(bird: Bird) -> dict[str, Callable[[LimitCycle], float]]:
+    found: dict[str, Callable[[FlightCycle], float]] = {
+        "mean_speed": lambda cycle: cycle.mean_speed,
+        "mean_climb_rate": lambda cycle: cycle.mean_climb_rate,
+        "power": lambda cycle: cycle.power,
+        "mean_pitch": lambda cycle: float(cycle.beat.states[:-1, 3].mean()),
+    }
+    if "shoulder.flap" in bird.joint_names:
+        joint = bird.joint_names.index("shoulder.flap")
+        found["highest_flap"] = lambda cycle: float(_angles(cycle, joint).max())
+        found["lowest_flap"] = lambda cycle: float(_angles(cycle, joint).min())
+    validity = _LastValidity()
+    found["largest_angle_of_attack"] = lambda cycle: validity(cycle).largest_angle_of_attack
+    found["reduced_frequency"] = lambda cycle: validity(cycle).reduced_frequency
+    found["integration_error"] = lambda cycle: cycle.integration_error
+    return cast("dict[str, Callable[[LimitCycle], float]]", found)
+
+
+class _LastValidity:
+    """`assess_validity`, which several observables of one cycle share."""
+
+    def __init__(self) -> None:
+        self._of: tuple[FlightCycle, Validity] | None = None
+
+    def __call__(self, cycle: FlightCycle) -> Validity:
+        if self._of is None or self._of[0] is not cycle:
+            self._of = cycle, assess_validity(cycle)
+        return self._of[1]
+
+
+def _angles(cycle: FlightCycle, joint: int) -> FloatArray:
+    """Angle (K,) rad of a joint over a beat."""
+    model, beat = cast(WingModel, cycle.model), cycle.beat
+    at = zip(beat.times, beat.states, strict=True)
+    return np.array([model.joint_motion(t, x)[0][joint] for t, x in at])
