@@ -1,4 +1,4 @@
-"""Quasi-steady circulation and loads of the lifting line, and their derivatives (MODEL section 6).
+"""Quasi-steady circulation and loads of the lifting line, and their derivatives.
 
 With U the wind that an element meets, its component along the span removed, and alpha its angle
 to the chord, thin-airfoil theory and the downwash w of the wake give

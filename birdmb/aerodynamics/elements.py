@@ -1,4 +1,4 @@
-"""Lifting-line elements of a symmetric pair of wings and the velocities they induce (MODEL 5, 6).
+"""Lifting-line elements of a symmetric pair of wings and the velocities they induce.
 
 Frame: body axes (x forward, y right, z down), origin at the body's centre of mass G. Only the right
 wing is stored: left and right circulations are equal and the left wing is the mirror image, so its

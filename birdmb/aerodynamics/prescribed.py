@@ -1,7 +1,7 @@
 """A wing whose joints are all prescribed: everything but the body's motion is known per phase.
 
 The wing's shape, its velocities and the inverse of the circulation's linear system depend on the
-phase alone (MODEL section 6, last point), so they are computed once and shared by every trajectory
+phase alone (docs/model.md, section 5), so they are computed once and shared by every trajectory
 and every perturbation of it. What remains per evaluation is three products of small matrices.
 """
 

@@ -1,4 +1,4 @@
-"""The multibody bird in Exudyn, its joints prescribed or compliant (MODEL section 8)."""
+"""The multibody bird in Exudyn, its joints prescribed or compliant (docs/model.md, section 7)."""
 
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple

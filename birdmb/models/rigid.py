@@ -1,4 +1,4 @@
-"""The rigid bird: four states, massless wings that follow their drivers (MODEL section 7)."""
+"""The rigid bird: four states, massless wings on their drivers (docs/model.md, section 6)."""
 
 from functools import cached_property, lru_cache
 

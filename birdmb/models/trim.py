@@ -8,6 +8,7 @@ from birdmb.aerodynamics.prescribed import PrescribedWing, at_phase, resultant_a
 from birdmb.topology import Bird
 
 _SLOWEST, _FASTEST = 1.0, 60.0  # m/s
+_BALANCED = 1e-12  # (m/s2)^2
 
 
 def mean_trim(bird: Bird, wing: PrescribedWing) -> FloatArray:
@@ -46,7 +47,7 @@ def mean_trim(bird: Bird, wing: PrescribedWing) -> FloatArray:
         gravity = np.array([-g * np.cos(theta), -g * np.sin(theta), 0.0])
         return np.column_stack([slopes / scale[:, None], gravity])
 
-    best = None
+    trials = []
     for u in (12.0, 20.0, 7.0, 35.0):
         found = least_squares(
             accelerations,
@@ -55,10 +56,8 @@ def mean_trim(bird: Bird, wing: PrescribedWing) -> FloatArray:
             bounds=([_SLOWEST, -_FASTEST, -1.5], [_FASTEST, _FASTEST, 1.5]),
             x_scale=[10.0, 2.0, 0.2],
         )
-        if best is None or found.cost < best.cost:
-            best = found
-        if best.cost < 1e-12:
+        trials.append(found)
+        if found.cost < _BALANCED:
             break
-    assert best is not None
-    u, w, theta = best.x
+    u, w, theta = min(trials, key=lambda found: float(found.cost)).x
     return np.array([u, w, 0.0, theta])

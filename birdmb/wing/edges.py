@@ -1,4 +1,4 @@
-"""Skeleton, feathers and the two edges between which the wing is spanned (MODEL section 4).
+"""Skeleton, feathers and the two edges between which the wing is spanned.
 
 Frame: the right wing, body axes (x forward, y right, z down), origin at the shoulder joint. The
 kernels take complex angles as well: with q + i h q' (h tiny) the imaginary part of everything they

@@ -1,4 +1,4 @@
-"""The lifting line: quarter-chord curve to which every chord is orthogonal (MODEL section 5).
+"""The lifting line: quarter-chord curve to which every chord is orthogonal.
 
 A station j pairs a point A_j of the leading edge with a point B_j of the trailing edge; its chord
 is c_j = B_j - A_j and its point of the line P_j = 3/4 A_j + 1/4 B_j. Shoulder and wing tip are
