@@ -5,6 +5,8 @@ from orbit_systems import ForcedLinear, markus_yamabe, mathieu
 
 from birdmb.orbits import OdeModel, find_limit_cycle
 
+MATHIEU = [(1, 0.5), (2, 1), (3, 2), (4, 5)]
+
 
 def test_mathieu_multipliers():
     cycle = find_limit_cycle(mathieu(1, 0.5))
@@ -23,19 +25,24 @@ def test_mathieu_traces(a, q, trace):
     assert abs(np.linalg.det(cycle.monodromy) - 1) < 1e-10
 
 
-def test_damping_shifts_mathieus_exponents():
+@pytest.mark.parametrize(("a", "q"), MATHIEU)
+def test_damping_shifts_mathieus_exponents(a, q):
     # x = exp(-d t / 2) y turns the damped equation into the undamped one with a - d**2 / 4
     d = 0.2
-    damped = find_limit_cycle(mathieu(1, 0.5, damping=d)).multipliers
-    undamped = find_limit_cycle(mathieu(1 - d**2 / 4, 0.5)).multipliers
-    assert damped == pytest.approx(undamped * np.exp(-d * np.pi / 2), rel=1e-9)
+    damped = find_limit_cycle(mathieu(a, q, damping=d))
+    undamped = find_limit_cycle(mathieu(a - d**2 / 4, q))
+    assert damped.multipliers == pytest.approx(
+        undamped.multipliers * np.exp(-d * np.pi / 2), rel=1e-9
+    )
+    assert np.linalg.det(damped.monodromy) == pytest.approx(np.exp(-d * np.pi), abs=1e-10)
 
 
-@pytest.mark.parametrize("segments", [2, 5, 10])
-def test_multipliers_do_not_depend_on_the_segments(segments):
-    whole = find_limit_cycle(mathieu(1, 0.5)).multipliers
-    cut = find_limit_cycle(mathieu(1, 0.5), segments=segments).multipliers
-    assert cut == pytest.approx(whole, abs=1e-8)
+@pytest.mark.parametrize(("a", "q"), MATHIEU)
+def test_multipliers_do_not_depend_on_the_segments(a, q):
+    whole = find_limit_cycle(mathieu(a, q)).multipliers
+    for segments in (2, 5, 10):
+        cut = find_limit_cycle(mathieu(a, q), segments=segments).multipliers
+        assert cut == pytest.approx(whole, abs=1e-8)
 
 
 def test_multipliers_do_not_depend_on_the_starting_phase():

@@ -1,0 +1,145 @@
+"""The ibis with an ever softer shoulder: the fold in which its flight ends, and how it is known.
+
+Run `python examples/bird_branch.py [DIRECTORY]` for the branch from 60 to 2 N m/rad: its picture
+goes to the directory, and a run that was stopped goes on. With `--evidence` instead of a directory
+it prints what tells that the branch turns, with `--refined` where the fold is on other wings, with
+other steps, dampers and inertias.
+"""
+
+import sys
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+import birdmb
+from birdmb.orbits import Bifurcation, BranchPoint, Steps
+from birdmb.studies.branch import bird_branch
+from birdmb.studies.branch_figure import plot_bird_branch
+
+IBIS = Path(__file__).parent.parent / "topologies" / "ibis_compliant_shoulder.toml"
+STIFFNESS = "shoulder.flap.stiffness"
+
+
+def table_row(item: BranchPoint | Bifurcation) -> None:
+    if isinstance(item, Bifurcation):
+        print(f"{item.kind} at {item.parameter:.6f} +- {item.parameter_error:.0e}:")
+        item = item.point
+    seen = item.observables
+    print(
+        f"{item.parameter:12.6f}  {np.abs(item.multipliers[0]):8.5f}  {item.stability:9s}  "
+        f"{seen['mean_speed']:7.3f}  {seen['mean_climb_rate']:+7.3f}  {seen['power']:7.2f}  "
+        f"{np.degrees(seen['mean_pitch']):7.1f}  "
+        f"{np.degrees(seen['largest_angle_of_attack']):7.1f}  {seen['reduced_frequency']:6.3f}",
+        flush=True,
+    )
+
+
+def whole_branch(bird: birdmb.Bird, directory: Path) -> None:
+    directory.mkdir(parents=True, exist_ok=True)
+    store = directory / "stiffness_branch.nc"
+    kept = birdmb.load_branch(store) if store.exists() else None
+    print(
+        " k, N m/rad    |L|max  stability    speed    climb    power    pitch   attack   k_red\n"
+        "                                      m/s      m/s        W      deg      deg"
+    )
+    branch = bird_branch(bird, STIFFNESS, (60.0, 2.0), resume=kept, store=store, callback=table_row)
+    plot_bird_branch(branch).savefig(directory / "stiffness_branch.png", dpi=100)
+
+
+def evidence(bird: birdmb.Bird) -> None:
+    family = partial(member, bird)
+    branch = bird_branch(bird, STIFFNESS, (6.6, 5.5), max_bifurcations=1, steps=Steps(longest=0.2))
+    (fold,) = branch.bifurcations
+    near = int(np.abs(fold.point.multipliers - 1).argmin())
+    print(
+        f"fold at k = {fold.parameter:.6f}: multiplier {fold.point.multipliers[near].real:.7f} +- "
+        f"{fold.point.multiplier_errors[near]:.0e}, closure {fold.point.residual:.0e}"
+    )
+    before, after = branch.points[-2].points, branch.points[-1].points
+    print(
+        "distance above the fold: the two flights, their multiplier nearest 1, (L - 1)^2/distance"
+    )
+    for distance in (1e-3, 1e-2):
+        for side in (before, after):
+            start = fold.point.points + (side - fold.point.points) * 0.3
+            cycle = birdmb.find_limit_cycle(family(fold.parameter + distance), start[0])
+            value = cycle.multipliers[np.abs(cycle.multipliers - 1).argmin()]
+            print(
+                f"  {distance:.0e}: {cycle.mean_speed:.3f} m/s, {value.real:.5f}"
+                f"{value.imag:+.5f}i, {np.abs(value - 1) ** 2 / distance:.3f}"
+            )
+    print("distance below the fold: what searches from the flight at the fold end with")
+    for distance in (1e-3, 1e-2, 1e-1):
+        for method in ("newton", "levenberg-marquardt"):
+            ends = searched(family(fold.parameter - distance), fold, method)
+            print(f"  {distance:.0e}, {method}: {ends}")
+
+
+def member(bird: birdmb.Bird, stiffness: float) -> birdmb.MultibodyModel:
+    return birdmb.MultibodyModel(bird.with_values({STIFFNESS: stiffness}))
+
+
+def searched(model: birdmb.MultibodyModel, fold: Bifurcation, method: str) -> str:
+    try:
+        cycle = birdmb.find_limit_cycle(
+            model, fold.point.points[0], method=method, max_iterations=25
+        )
+    except birdmb.ConvergenceError as error:
+        return f"no cycle, best closure {error.residual:.1e}"
+    return f"a cycle at {cycle.mean_speed:.2f} m/s, pitch {np.degrees(cycle.x0[3]):.0f} deg"
+
+
+def variations() -> Iterator[tuple[str, dict[str, object], int | None]]:
+    yield "as it is: 32 elements, 120 steps", {}, None
+    for elements in (16, 24, 48):
+        yield f"{elements} elements", {"wing.discretisation.elements": elements}, None
+    for steps in (60, 240):
+        yield f"{steps} steps per beat", {}, steps
+    yield "published wing", {"wing.discretisation": "published"}, None
+    for damping in (0.1, 0.3):
+        yield f"damping {damping} N m s/rad", {"shoulder.flap.damping": damping}, None
+    for inertia in (0.0003, 0.001, 0.002):
+        values = {
+            f"segments.{bone}.inertia": [inertia] * 3 for bone in ("humerus", "forearm", "hand")
+        }
+        yield f"inertia {inertia} kg m2 of each segment", values, None
+
+
+def refined(bird: birdmb.Bird) -> None:
+    for label, values, steps_per_beat in variations():
+        branch = bird_branch(
+            bird.with_values(values),
+            STIFFNESS,
+            (20.0, 3.0),
+            steps_per_beat=steps_per_beat,
+            max_bifurcations=1,
+            steps=Steps(first=0.1, longest=0.4),
+            max_points=60,
+        )
+        for found in branch.bifurcations:
+            seen = found.point.observables
+            print(
+                f"{label}: {found.kind} at {found.parameter:.6f} +- {found.parameter_error:.0e}, "
+                f"{seen['mean_speed']:.2f} m/s, attack "
+                f"{np.degrees(seen['largest_angle_of_attack']):.1f} deg, integration error "
+                f"{seen['integration_error']:.0e}",
+                flush=True,
+            )
+        if not branch.bifurcations:
+            print(f"{label}: {branch.stopped or 'no bifurcation in the range'}", flush=True)
+
+
+def main(argument: str) -> None:
+    bird = birdmb.load_bird(IBIS)
+    if argument == "--evidence":
+        evidence(bird)
+    elif argument == "--refined":
+        refined(bird)
+    else:
+        whole_branch(bird, Path(argument))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1] if len(sys.argv) > 1 else "results")
