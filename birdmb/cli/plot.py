@@ -22,7 +22,7 @@ def run(store: Path, quantities: Sequence[str], at: Sequence[str], out: Path) ->
     fixed = dict(map(parse_assignment, at))
     figures = {
         f"{store.stem}_{name}.png" if name else f"{store.stem}.png": study.plot(name, at=fixed)
-        for name in (quantities or [None])
+        for name in (quantities or (None,))
     }
     prepare(out)
     for name, figure in figures.items():

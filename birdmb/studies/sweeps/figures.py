@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.colors import CenteredNorm, LogNorm, Normalize
+from matplotlib.colors import LogNorm, Normalize, TwoSlopeNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
@@ -25,7 +25,18 @@ _LABELS = {
     "climb_rate": "climb rate (m/s)",
     "mean_speed": "mean speed (m/s)",
 }
-_UNITS = {"stiffness": "N m/rad", "damping": "N m s/rad", "mass": "kg", "frequency": "Hz"}
+_UNITS = {
+    "stiffness": "N m/rad",
+    "damping": "N m s/rad",
+    "mass": "kg",
+    "frequency": "Hz",
+} | dict.fromkeys(("x", "y", "z", "length"), "m")
+# Where it turns (red is unstable, purple sinks), and the colours on both sides, above and below.
+_TURNS = {
+    "largest_modulus": (1.0, "RdBu_r", "Reds", "Blues_r"),
+    "climb_rate": (0.0, "PuOr_r", "Oranges", "Purples_r"),
+}
+_DECADE = 10.0  # a wider range of time constants is drawn on a logarithmic scale
 _FAILED: dict[str, Any] = {"facecolor": "0.9", "edgecolor": "0.5", "hatch": "////", "linewidth": 0}
 
 
@@ -42,12 +53,15 @@ def plot_study(study: xr.Dataset, quantity: str | None, at: Mapping[str, Any]) -
             raise SweepError(
                 f"No quantity is called {name}; there are {', '.join(map(str, known))}."
             )
-    rows = 1 if len(quantities) == 1 else 2
+    rows, two = (1 if len(quantities) == 1 else 2), len(plane["power"].dims) == 2
     figure = Figure(figsize=(5.4 * rows, 4.0 * rows), layout="constrained")
-    panels = figure.subplots(rows, rows, squeeze=False, sharex=True)
-    draw = _draw_map if len(plane["power"].dims) == 2 else _draw_lines
+    panels = figure.subplots(rows, rows, squeeze=False, sharex=True, sharey=two)
     for axes, name in zip(panels.ravel(), quantities, strict=True):
-        draw(axes, plane, name)
+        (_draw_map if two else _draw_lines)(axes, plane, name)
+    for axes in panels[:-1].ravel():
+        axes.set_xlabel("")
+    for axes in panels[:, 1:].ravel() if two else ():
+        axes.set_ylabel("")
     figure.suptitle("\n".join([title, *fixed]), fontsize="medium")
     handles = _legend(plane)
     if handles:
@@ -101,6 +115,7 @@ def _places(axes: Axes, along: str, coordinate: xr.DataArray) -> np.ndarray:
     """Where the values of a parameter stand on an axis; texts and switches stand side by side."""
     getattr(axes, f"set_{along}label")(_label(str(coordinate.name))[1])
     if coordinate.dtype.kind in "if":
+        axes.locator_params(axis=along, nbins=6)
         return np.asarray(coordinate.values, float)
     places = np.arange(coordinate.size, dtype=float)
     getattr(axes, f"set_{along}ticks")(places, list(map(str, coordinate.values)))
@@ -124,7 +139,7 @@ def _draw_lines(axes: Axes, study: xr.Dataset, name: str) -> None:
         axes.axhline(1, color="k", lw=1)
     if name == "climb_rate":
         axes.axhline(0, color="0.7", lw=0.8, zorder=0)
-    if name == "time_constant" and np.isfinite(y).any():
+    if name == "time_constant" and np.nanmax(y, initial=0.0) > _DECADE * np.nanmin(y, initial=1.0):
         axes.set_yscale("log")
     failed = x[study["status"].values == "failed"]
     axes.plot(
@@ -164,13 +179,15 @@ def _edges(centres: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _colours(name: str, values: np.ndarray) -> tuple[Normalize, str]:
-    if name == "largest_modulus":
-        return CenteredNorm(1.0), "RdBu_r"
-    if name == "climb_rate":
-        return CenteredNorm(0.0), "PuOr_r"
-    if name == "time_constant" and np.isfinite(values).any():
-        return LogNorm(), "viridis"
-    return Normalize(), "viridis"
+    """Scale and colours; two of them meet where the quantity changes its meaning."""
+    low, high = np.nanmin(values, initial=np.inf), np.nanmax(values, initial=-np.inf)
+    if name in _TURNS:
+        at, both, above, below = _TURNS[name]
+        if low < at < high:
+            return TwoSlopeNorm(at), both
+        return Normalize(), above if low >= at else below
+    wide = name == "time_constant" and high > _DECADE * low
+    return (LogNorm() if wide else Normalize()), "viridis"
 
 
 def _legend(study: xr.Dataset) -> list[Any]:

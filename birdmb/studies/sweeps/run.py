@@ -74,7 +74,7 @@ def sweep(
         model: makes the model of a bird: `MultibodyModel`, `RigidModel`, `functools.partial` of
             them.
         tolerance, max_iterations, segments, method: of each search, as for `find_limit_cycle`.
-        on_point: called once before the first point, and after every point that has been stored.
+        on_point: called after every point that has been stored, and once before the first of them.
 
     Raises:
         TopologyError: the bird has no value of that name. A value that is impossible is the failure

@@ -1,0 +1,44 @@
+"""What the tests of sweeps share: a coarse bird over a grid, and executors without processes."""
+
+from concurrent.futures import Executor, Future
+from functools import partial
+from pathlib import Path
+
+import birdmb
+
+TOPOLOGIES = Path(__file__).parents[2] / "topologies"
+AMPLITUDE, MASS = "shoulder.flap.amplitude_deg", "body.mass"
+GRID = {AMPLITUDE: [42.0, 40.0, -400.0, 38.0], MASS: [1.1, 1.15, 1.2, 1.25, 1.3, 1.35]}
+POINTS = 24
+IMPOSSIBLE = -400.0
+
+
+def coarse_bird():
+    ibis = birdmb.load_bird(TOPOLOGIES / "ibis.toml")
+    return ibis.with_values({"wing.discretisation.elements": 8})
+
+
+def logged_model(bird, log):
+    """A coarse rigid model; writes what it was asked for on a line of `log`."""
+    with Path(log).open("a") as file:
+        file.write(f"{bird.value(AMPLITUDE):.6g} {bird.value(MASS):.6g}\n")
+    return birdmb.RigidModel(bird, steps_per_beat=30)
+
+
+def read_log(log):
+    return [tuple(map(float, line.split())) for line in Path(log).read_text().splitlines()]
+
+
+QUICK = partial(birdmb.RigidModel, steps_per_beat=30)
+
+
+class Inline(Executor):
+    """Computes what is submitted at once, in this process."""
+
+    def submit(self, function, /, *arguments, **options):
+        future = Future()
+        try:
+            future.set_result(function(*arguments, **options))
+        except birdmb.BirdmbError as error:
+            future.set_exception(error)
+        return future

@@ -1,0 +1,290 @@
+"""Sweeps: one set of bits whatever computes them, stores that refuse, resume and grow, datasets."""
+
+import sqlite3
+from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
+from functools import partial
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import birdmb
+from birdmb.studies.sweeps import Study, SweepError, sweep
+from birdmb.studies.sweeps.grid import Grid, parent
+
+from .sweeping import AMPLITUDE, GRID, IMPOSSIBLE, MASS, QUICK, Inline, coarse_bird
+
+FLAP = "shoulder.flap"
+SMALL = {AMPLITUDE: [42.0, 40.0], MASS: [1.2, 1.3]}
+
+
+@pytest.fixture(scope="module")
+def inline(tmp_path_factory):
+    """The grid, swept in this process."""
+    store = tmp_path_factory.mktemp("inline") / "study.db"
+    return sweep(coarse_bird(), GRID, store=store, executor=Inline(), model=QUICK)
+
+
+def small_sweep(store, **options):
+    options = {"executor": Inline(), "model": QUICK} | options
+    return sweep(coarse_bird(), SMALL, store=store, **options)
+
+
+def test_points_are_limit_cycles(inline):
+    data = inline.to_xarray()
+    for amplitude, mass in ((42.0, 1.1), (38.0, 1.3)):
+        values = {AMPLITUDE: amplitude, MASS: mass}
+        cycle = birdmb.find_limit_cycle(QUICK(coarse_bird().with_values(values)))
+        at = data.sel(values)
+        np.testing.assert_allclose(at.x0, cycle.x0, atol=1e-7)
+        np.testing.assert_allclose(at.multiplier_real, cycle.multipliers.real, atol=1e-6)
+        np.testing.assert_allclose(at.monodromy, cycle.monodromy, atol=1e-5)
+        assert at.largest_modulus == pytest.approx(np.abs(cycle.multipliers[0]), abs=1e-6)
+        assert at.time_constant == pytest.approx(cycle.time_constants[0], rel=1e-5)
+        assert at.power == pytest.approx(cycle.power, abs=1e-6)
+        assert at.climb_rate == pytest.approx(cycle.mean_climb_rate, abs=1e-7)
+        assert at.residual < 1e-7
+        assert at.stability == cycle.stability
+
+
+def test_failing_points_are_outcomes_with_a_reason(inline):
+    data = inline.to_xarray()
+    failed = data[AMPLITUDE] == IMPOSSIBLE
+    assert (data.status.sel({AMPLITUDE: IMPOSSIBLE}) == "failed").all()
+    assert (data.status.sel({AMPLITUDE: ~failed}) == "found").all()
+    assert all(
+        "No orbit found" in text for text in data.failure.sel({AMPLITUDE: IMPOSSIBLE}).values
+    )
+    assert np.isnan(data.x0.sel({AMPLITUDE: IMPOSSIBLE})).all()
+    assert len(inline.failures) == 6
+    # What comes after a failed point starts from what came before it.
+    assert data.start.sel({AMPLITUDE: 38.0, MASS: 1.1}) == "[1, 0]"
+    assert data.start.sel({AMPLITUDE: 42.0, MASS: 1.1}) == "cold"
+
+
+def test_impossible_values_fail_alone(tmp_path):
+    study = sweep(
+        coarse_bird(),
+        {MASS: [-1.0, 1.2, "heavy"]},
+        store=tmp_path / "s.db",
+        executor=Inline(),
+        model=QUICK,
+    )
+    assert list(study.to_xarray().status.values) == ["failed", "found", "failed"]
+    assert "body.mass: must be more than 0" in study.failures[0][1]
+
+
+def test_bits_depend_neither_on_workers_nor_on_what_finishes_first(inline, tmp_path):
+    with ThreadPoolExecutor(3) as threads:
+        study = sweep(coarse_bird(), GRID, store=tmp_path / "t.db", executor=threads, model=QUICK)
+    assert study.to_xarray().identical(inline.to_xarray())
+    assert list(study.outcomes) == list(inline.outcomes)
+
+
+def test_compliant_birds_have_the_same_bits_here_and_in_two_processes(ibis_compliant, tmp_path):
+    bird = ibis_compliant.with_values({"wing.discretisation.elements": 4})
+    grid = {f"{FLAP}.stiffness": [60.0, 40.0], f"{FLAP}.damping": [0.2, 0.1]}
+    model = partial(birdmb.MultibodyModel, steps_per_beat=60)
+    here, there = (
+        sweep(bird, grid, store=tmp_path / f"{i}.db", workers=2, executor=executor, model=model)
+        for i, executor in enumerate((Inline(), None))
+    )
+    assert not here.failures
+    assert here.to_xarray().identical(there.to_xarray())
+
+
+def test_running_again_computes_what_is_missing(inline, tmp_path):
+    class StopError(Exception):
+        pass
+
+    def stop(point):
+        if point.done == 10:
+            raise StopError
+
+    store, computed = tmp_path / "s.db", []
+    options = {"store": store, "executor": Inline(), "model": QUICK}
+    with pytest.raises(StopError):
+        sweep(coarse_bird(), GRID, **options, on_point=stop)
+    half = Study.open(store)
+    assert len(half.outcomes) == 10
+    assert (half.to_xarray().status == "missing").sum() == 14
+    assert half.plot().axes
+    whole = sweep(coarse_bird(), GRID, **options, on_point=computed.append)
+    assert [point.done for point in computed] == list(range(10, 25))
+    assert whole.to_xarray().identical(inline.to_xarray())
+    sweep(coarse_bird(), GRID, **options, on_point=computed.append)
+    assert len(computed) == 15
+
+
+def test_values_may_be_appended(inline, tmp_path):
+    options = {"store": tmp_path / "s.db", "executor": Inline(), "model": QUICK}
+    computed = []
+    sweep(coarse_bird(), {AMPLITUDE: GRID[AMPLITUDE][:2], MASS: GRID[MASS][:5]}, **options)
+    grown = sweep(coarse_bird(), GRID, **options, on_point=computed.append)
+    assert len(computed) == 1 + 24 - 10
+    assert grown.to_xarray().identical(inline.to_xarray())
+
+
+def test_parents_are_near_known_before_and_independent_of_the_size():
+    big, small = (Grid({"a": tuple(range(n)), "b": tuple(range(n))}) for n in (30, 7))
+    parents = {place: parent(place) for place in big.places()}
+    assert [place for place, before in parents.items() if before is None] == [(0, 0)]
+    assert {place: parents[place] for place in small.places()} == {
+        place: parent(place) for place in small.places()
+    }
+    depth = {(0, 0): 0}
+    for place, before in parents.items():
+        if before is not None:
+            assert sum(abs(i - j) for i, j in zip(place, before, strict=True)) in (1, 4)
+            depth[place] = depth[before] + 1
+    assert max(depth.values()) == 18  # so that 900 points keep 40 workers busy
+
+
+def refusal(store, bird=None, grid=SMALL, **options):
+    options = {"executor": Inline(), "model": QUICK} | options
+    with pytest.raises(SweepError) as caught:
+        sweep(bird or coarse_bird(), grid, store=store, **options)
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+def test_stores_of_other_studies_are_refused(tmp_path):
+    store = tmp_path / "study.db"
+    before = small_sweep(store).to_xarray()
+    heavier = coarse_bird().with_values({"body.inertia_yy": 0.2})
+    assert "body.inertia_yy is 0.1 there and 0.2 here" in refusal(store, heavier)
+    finer = coarse_bird().with_values({"wing.discretisation.elements": 9})
+    assert "wing.discretisation.elements is 8 there and 9 here" in refusal(store, finer)
+    assert "the model is RigidModel(steps_per_beat=30) there and RigidModel here" in refusal(
+        store, model=birdmb.RigidModel
+    )
+    assert "tolerance of the search is 1e-09 there and 1e-08 here" in refusal(store, tolerance=1e-8)
+    assert "it varies shoulder.flap.amplitude_deg, body.mass, in this order" in refusal(
+        store, grid={MASS: [1.2]}
+    )
+    assert "the values of body.mass there are 1.2, 1.3" in refusal(
+        store, grid=SMALL | {MASS: [1.2, 1.4]}
+    )
+    assert Study.open(store).to_xarray().identical(before)
+
+
+def test_files_that_are_no_studies_are_refused_and_left_alone(tmp_path):
+    text, other = tmp_path / "notes.txt", tmp_path / "other.db"
+    text.write_text("mine, and longer than the header of a database is, to be sure of it " * 3)
+    with sqlite3.connect(other) as connection:
+        connection.execute("create table mine (x)")
+    connection.close()
+    kept = [path.read_bytes() for path in (text, other)]
+    assert "not a database" in refusal(text)
+    assert "is no study" in refusal(other)
+    assert [path.read_bytes() for path in (text, other)] == kept
+    assert "unable to open" in refusal(tmp_path / "nowhere" / "study.db")
+    with pytest.raises(SweepError, match="no such study"):
+        Study.open(tmp_path / "nothing.db")
+
+
+def test_two_sweeps_do_not_fill_one_store(tmp_path):
+    store = tmp_path / "study.db"
+
+    def other_comes_first(point):
+        if point.done == 0:
+            small_sweep(store)
+
+    with pytest.raises(SweepError, match="another sweep is filling this store"):
+        small_sweep(store, on_point=other_comes_first)
+    assert len(Study.open(store).outcomes) == 4
+
+
+def test_what_cannot_be_meant_is_said_at_once(tmp_path):
+    store = tmp_path / "study.db"
+    assert "at least one parameter" in refusal(store, grid={})
+    assert "body.mass has no values" in refusal(store, grid={MASS: []})
+    assert "body.mass is to be 1.2 twice" in refusal(store, grid={MASS: [1.2, 1.3, 1.2]})
+    assert "cannot be nan" in refusal(store, grid={MASS: [float("nan")]})
+    assert "<lambda> is not" in refusal(
+        store, model=lambda bird: birdmb.RigidModel(bird, steps_per_beat=30)
+    )
+    with pytest.raises(birdmb.TopologyError, match="nearest"):
+        sweep(coarse_bird(), {"body.mas": [1.0]}, store=store)
+    assert not store.exists()
+    with pytest.raises(birdmb.OrbitError, match="method"):
+        small_sweep(store, method="guessing")
+
+
+def test_workers_that_die_end_the_sweep_with_a_sentence(tmp_path):
+    class Dying(Executor):
+        def submit(self, *_arguments, **_options):
+            future = Future()
+            future.set_exception(BrokenExecutor("died"))
+            return future
+
+    assert "A worker process died" in refusal(tmp_path / "s.db", executor=Dying())
+
+
+def test_texts_are_values_too_and_states_may_come_and_go(ibis_compliant, tmp_path):
+    bird = ibis_compliant.with_values({"wing.discretisation.elements": 4})
+    study = sweep(
+        bird,
+        {f"{FLAP}.mode": ["prescribed", "compliant"]},
+        store=tmp_path / "s.db",
+        executor=Inline(),
+        model=partial(birdmb.MultibodyModel, steps_per_beat=60),
+    )
+    data = study.to_xarray()
+    assert list(data.state.values) == ["u", "w", "q", "theta", FLAP, f"{FLAP}.rate"]
+    assert np.isnan(data.x0.sel({f"{FLAP}.mode": "prescribed"})).sum() == 2
+    assert np.isfinite(data.monodromy.sel({f"{FLAP}.mode": "compliant"})).all()
+    assert (data.start == "cold").all()
+    labels = [text.get_text() for text in study.plot().axes[-1].get_xticklabels()]
+    assert labels == ["prescribed", "compliant"]
+
+
+def test_dataset_survives_a_file(inline, tmp_path):
+    data = inline.to_xarray(timings=True)
+    assert (data.seconds > 0).all()
+    data.to_netcdf(tmp_path / "study.nc", engine="h5netcdf")
+    xr.testing.assert_equal(xr.load_dataset(tmp_path / "study.nc"), data)
+
+
+def test_stored_bird_varies_like_the_one_swept(inline):
+    """Also where a default follows what is varied, as the middle of a bone does."""
+    longer = {"segments.humerus.length": 0.2}
+    again = inline.bird.with_values(longer)
+    assert again.fingerprint() == coarse_bird().with_values(longer).fingerprint()
+
+
+def test_maps_show_failures_and_quantities(inline):
+    figure = inline.plot()
+    assert [axes.get_ylabel() for axes in figure.axes[4:]] == [
+        "|Λ|max",
+        "time constant (s)",
+        "wing power (W)",
+        "climb rate (m/s)",
+    ]
+    assert [len(axes.patches) for axes in figure.axes[:4]] == [6, 6, 6, 6]
+    single = inline.plot("mean_speed")
+    assert single.axes[0].get_xlabel() == "shoulder.flap.amplitude (°)"
+    with pytest.raises(SweepError, match=r"No quantity is called speed; there are .*mean_speed"):
+        inline.plot("speed")
+
+
+def test_lines_where_one_parameter_is_left(inline):
+    figure = inline.plot("power", at={MASS: 1.2})
+    (axes,) = figure.axes
+    assert axes.get_xlabel() == "shoulder.flap.amplitude (°)"
+    np.testing.assert_array_equal(axes.lines[0].get_xdata(), sorted(GRID[AMPLITUDE]))
+    assert list(axes.lines[-1].get_xdata()) == [IMPOSSIBLE]
+    with pytest.raises(SweepError, match=r"does not take the value 1.21: 1.1, 1.15"):
+        inline.plot(at={MASS: 1.21})
+    with pytest.raises(SweepError, match="no parameter"):
+        inline.plot(at={"body.mas": 1.21})
+    with pytest.raises(SweepError, match="All parameters are fixed"):
+        inline.plot(at={MASS: 1.2, AMPLITUDE: 42.0})
+
+
+def test_more_than_two_parameters_must_be_fixed_for_a_picture(tmp_path):
+    grid = {AMPLITUDE: [42.0, 40.0], MASS: [1.2, 1.3], "gait.frequency": [4.0, 4.1]}
+    study = sweep(coarse_bird(), grid, store=tmp_path / "s.db", executor=Inline(), model=QUICK)
+    with pytest.raises(SweepError, match="fix all but two"):
+        study.plot()
+    assert len(study.plot(at={"gait.frequency": 4.1}).axes) == 8
