@@ -7,8 +7,11 @@ acceleration. No constraint is left, so Exudyn's explicit integrators apply, and
 strays from its driver by no more than its loads over B.
 """
 
+import inspect
+import weakref
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import Any, TypeVar, cast
 
 import exudyn as exu
 import numpy as np
@@ -27,6 +30,7 @@ _MIRROR = np.diag([1.0, -1.0, 1.0])
 # (t, coordinates, velocities) -> generalised forces or accelerations, all (n,)
 CoordinateFunction = Callable[[float, FloatArray, FloatArray], FloatArray]
 TimeFunction = Callable[[float], FloatArray]
+Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 @dataclass
@@ -124,7 +128,7 @@ class ExudynBird:
         prescribed: BoolArray,
         driver: TimeFunction,
     ) -> None:
-        self._failure: BirdmbError | KeyboardInterrupt | None = None
+        self._failures: list[BirdmbError | KeyboardInterrupt] = []
         links = bird_links(bird)
         n = self.size = len(links)
         self._container = exu.SystemContainer()
@@ -139,15 +143,19 @@ class ExudynBird:
             )
         )
 
+        # Exudyn keeps these functions out of the garbage collector's sight: what they held
+        # strongly, this object or the model, would never be freed.
+        call_forces, call_driver, failures = _weakly(forces), _weakly(driver), self._failures
+
         def tree_forces(
             _mbs: object, t: float, _item: int, q: Sequence[float], v: Sequence[float]
         ) -> FloatArray:
-            if self._failure is None:
+            if not failures:
                 try:
-                    return forces(t, np.array(q), np.array(v))
+                    return call_forces()(t, np.array(q), np.array(v))
                 except (BirdmbError, KeyboardInterrupt) as error:
                     # Exudyn would rewrap it and print a banner; it is raised again afterwards.
-                    self._failure = error
+                    failures.append(error)
                 except np.linalg.LinAlgError:
                     # The motion runs away and overflows: let it end as not finite.
                     pass
@@ -172,7 +180,7 @@ class ExudynBird:
         def driving_forces(
             _mbs: object, t: float, _item: int, _q: Sequence[float], _v: Sequence[float]
         ) -> FloatArray:
-            return inertia * driver(t)
+            return inertia * call_driver()(t)
 
         if prescribed.any():
             self.mbs.AddObject(
@@ -219,9 +227,15 @@ class ExudynBird:
         return np.array(mass), np.array(left)
 
     def _raise_failure(self) -> None:
-        failure, self._failure = self._failure, None
-        if failure is not None:
-            raise failure
+        if self._failures:
+            raise self._failures.pop()
+
+
+def _weakly(function: Function) -> Callable[[], Function]:
+    """How to get at a function that is kept alive by its object, if it is a method of one."""
+    if inspect.ismethod(function):
+        return cast("Callable[[], Function]", weakref.WeakMethod(function))
+    return lambda: function
 
 
 def _quiet_settings() -> exu.SimulationSettings:

@@ -1,6 +1,6 @@
 """The multibody bird in Exudyn, its joints prescribed or compliant (docs/model.md, section 7)."""
 
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -75,8 +75,7 @@ class MultibodyModel(WingModel):
         self._compliant = np.array([joint.mode == "compliant" for joint in bird.joints], dtype=bool)
         self._springs = Springs(bird)
         self.turning = self._joints_that_turn_the_wing_as_a_whole()
-        # Every trajectory and every perturbation of it asks for the same instants again.
-        self.instant = lru_cache(maxsize=_INSTANTS_KEPT)(self._make_instant)
+        self._instants: dict[float, Instant] = {}
 
     def _options(self) -> dict[str, Any]:
         return {**super()._options(), "integrator": self._integrator}
@@ -240,6 +239,17 @@ class MultibodyModel(WingModel):
         if self._compliant[shoulder:].any() or (self.wing.feather_share[:, :shoulder] != 1.0).any():
             return 0
         return shoulder if not self.wing.twist[:shoulder].any() else 0
+
+    def instant(self, t: float) -> Instant:
+        """What time t (s) alone determines.
+
+        Kept, for every trajectory and every perturbation of it asks for the same instants again.
+        """
+        if t not in self._instants:
+            if len(self._instants) >= _INSTANTS_KEPT:
+                self._instants.clear()
+            self._instants[t] = self._make_instant(t)
+        return self._instants[t]
 
     def _make_instant(self, t: float) -> Instant:
         angles, rates, accelerations = driven(self.wing, t)

@@ -1,6 +1,6 @@
 """The rigid bird: four states, massless wings on their drivers (docs/model.md, section 6)."""
 
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -30,6 +30,7 @@ from birdmb.topology import Bird
 _ORDER = 4
 _TOLERANCE = 1e-6
 _MOST_STEPS = 1000
+_TABLES_KEPT = 64
 
 
 class RigidModel(WingModel):
@@ -47,7 +48,7 @@ class RigidModel(WingModel):
     def __init__(self, bird: Bird, *, steps_per_beat: int | None = None) -> None:
         super().__init__(bird, steps_per_beat=steps_per_beat)
         self._constants = (bird.body.mass, bird.body.inertia_yy, bird.gravity, bird.air.density)
-        self._table = lru_cache(maxsize=64)(self._tabulate)
+        self._tables: dict[tuple[float, float, int], PrescribedWing] = {}
 
     @cached_property
     def steps_per_beat(self) -> int:
@@ -133,6 +134,15 @@ class RigidModel(WingModel):
 
     def _described(self, x: FloatArray) -> str:
         return ", ".join(f"{n} = {v:.4g}" for n, v in zip(self.state_names, x, strict=True))
+
+    def _table(self, t0: float, duration: float, steps: int) -> PrescribedWing:
+        """The wing at every half step from t0 on; kept, for flows ask for the same ones again."""
+        key = (t0, duration, steps)
+        if key not in self._tables:
+            if len(self._tables) >= _TABLES_KEPT:
+                self._tables.clear()
+            self._tables[key] = self._tabulate(*key)
+        return self._tables[key]
 
     def _tabulate(self, t0: float, duration: float, steps: int) -> PrescribedWing:
         times = t0 + duration * np.arange(2 * steps + 1) / max(2 * steps, 1)

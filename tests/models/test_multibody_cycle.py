@@ -1,6 +1,7 @@
 """Limit cycles of the multibody bird: against the rigid one, and consistent in themselves."""
 
 import pickle
+import weakref
 
 import numpy as np
 import pytest
@@ -152,3 +153,13 @@ def test_a_wing_folded_too_far_is_told(ibis):
     bird = ibis.with_values({"elbow.sweep.offset_deg": 130, "wrist.sweep.offset_deg": -150})
     with pytest.raises(birdmb.StateError, match=r"ibis: no line orthogonal.*elbow.sweep"):
         birdmb.RigidModel(bird).flow([18, -2, 0, 0], 0.0, 0.25)
+
+
+@pytest.mark.parametrize("kind", [birdmb.RigidModel, birdmb.MultibodyModel])
+def test_a_model_is_freed_when_nobody_needs_it(ibis, kind):
+    """At once and without the garbage collector: branches and sweeps make thousands of models."""
+    model = kind(ibis.with_values({"wing.discretisation": 8}))
+    model.flow(model.initial_guess(), 0.0, 0.25)
+    gone = weakref.ref(model)
+    del model
+    assert gone() is None
