@@ -5,6 +5,7 @@ import pytest
 
 from birdmb.aerodynamics.circulation import element_loads, resultant
 from birdmb.aerodynamics.elements import circulation_system, place_elements
+from birdmb.aerodynamics.joints import joint_torques
 from birdmb.aerodynamics.prescribed import (
     at_phase,
     driven,
@@ -12,6 +13,7 @@ from birdmb.aerodynamics.prescribed import (
     resultant_and_derivatives,
 )
 from birdmb.wing.arrays import wing_arrays
+from birdmb.wing.chain import joint_chain
 from birdmb.wing.shape import WingShape, wing_shape
 
 # Small, so that what is left is the discretisation and not alpha squared.
@@ -233,3 +235,26 @@ def test_derivatives_by_the_state_are_exact(wing):
     assert errors[0] / errors[1] == pytest.approx(4, rel=0.05)
     direct = element_loads(placed, DENSITY, *state)
     np.testing.assert_allclose(loads(state)[:, 0], resultant(placed, direct.force), rtol=1e-12)
+
+
+def test_the_split_between_bones_moves_no_load(wing):
+    """Who carries an element changes the torques at elbow and wrist, never at the shoulder.
+
+    And all of an element on the hand, or shares of it on each bone, add up to the same.
+    """
+    angles, rates, _ = driven(wing, 0.03)
+    shape = wing_shape(wing, angles, rates, 16, 0.5, False)
+    placed = place_elements(shape, wing.root)
+    force = element_loads(placed, DENSITY, 18.0, -2.0, 0.3).force
+    chain = joint_chain(wing, angles)
+    torques = [
+        joint_torques(wing, chain, placed.position, force, beyond)
+        for beyond in (shape.beyond, np.zeros((16, 2)), np.ones((16, 2)))
+    ]
+    for other in torques[1:]:
+        np.testing.assert_allclose(other[:3], torques[0][:3], rtol=1e-13)
+        assert np.abs(other[3:] - torques[0][3:]).max() > 1e-3
+    np.testing.assert_array_equal(torques[1][3:], 0.0)
+    # By hand: the moment of all forces about the flap's axis through the shoulder.
+    moment = np.cross(placed.position - wing.root, force).sum(axis=0)
+    np.testing.assert_allclose(torques[0][1], chain.axis[1] @ moment, rtol=1e-12)
