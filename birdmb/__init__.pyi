@@ -25,6 +25,8 @@ from .studies import (
     trim_flight,
     tunnel_and_free_flight,
 )
+from .studies.branch import bird_branch
+from .studies.sweeps import Study, sweep
 from .topology import Bird, load_bird
 
 __all__ = [
@@ -43,12 +45,14 @@ __all__ = [
     "OrbitError",
     "RigidModel",
     "StateError",
+    "Study",
     "TetheredModel",
     "TopologyError",
     "Trim",
     "TrimError",
     "Validity",
     "assess_validity",
+    "bird_branch",
     "continue_branch",
     "find_limit_cycle",
     "floquet",
@@ -60,6 +64,7 @@ __all__ = [
     "perturbed_flight",
     "perturbed_response",
     "stability_boundary",
+    "sweep",
     "trim_flight",
     "tunnel_and_free_flight",
 ]

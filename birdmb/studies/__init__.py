@@ -2,10 +2,10 @@
 
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.errors import TrimError
+from birdmb.studies.parameter_figures import plot_multiplier_locus, plot_performance
+from birdmb.studies.parameter_study import parameter_study
 from birdmb.studies.perturbed import flight_path, perturbed_flight
 from birdmb.studies.perturbed_figure import plot_perturbed_flight
-from birdmb.studies.sweep import parameter_study
-from birdmb.studies.sweep_figure import plot_multiplier_locus, plot_performance
 from birdmb.studies.trim import Trim, trim_flight
 from birdmb.studies.tunnel import tunnel_and_free_flight
 from birdmb.studies.tunnel_figure import plot_tunnel_and_free_flight
