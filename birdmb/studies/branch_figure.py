@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from birdmb._typing import BoolArray, FloatArray
-from birdmb.orbits import Bifurcation, Branch
+from birdmb.orbits import Branch, BranchPoint
 from birdmb.orbits.plots import MARKERS, VERDICT_COLOURS
 from birdmb.studies.validity import LARGEST_ANGLE
 
 # Parameters that span more than this factor are drawn on a logarithmic axis.
 _WIDE = 10.0
+_ANGLE = "largest_angle_of_attack"
 
 
 def plot_bird_branch(branch: Branch) -> Figure:
@@ -28,25 +30,21 @@ def plot_bird_branch(branch: Branch) -> Figure:
     """
     figure = Figure(figsize=(8, 9), layout="constrained")
     rows = figure.subplots(3, 1, sharex=True)
-    angles = np.degrees(branch.values("largest_angle_of_attack"))
     limit = float(np.degrees(LARGEST_ANGLE))
-    valid = angles <= limit
-    _draw(rows[0], branch, branch.values("mean_speed"), valid)
-    for moduli in _moduli(branch).T:
-        _draw(rows[1], branch, moduli, valid)
+    _draw(rows[0], branch, _speed)
+    for i in _those_that_last(branch):
+        _draw(rows[1], branch, partial(_modulus, i))
+    _draw(rows[2], branch, _angle)
     rows[1].axhline(1, color="0.7", linewidth=0.8, zorder=0)
-    _draw(rows[2], branch, angles, valid)
-    rows[2].axhspan(limit, max(float(angles.max()) * 1.05, limit + 1), color="0.93", zorder=0)
-    rows[2].text(
-        0.99, limit + 0.5, "beyond the model", transform=rows[2].get_yaxis_transform(), ha="right"
-    )
+    top = max(rows[2].get_ylim()[1], limit + 1)
+    rows[2].axhspan(limit, top, color="0.93", zorder=0)
+    rows[2].set_ylim(top=top)
+    rows[2].text(0.99, 0.95, "beyond the model", transform=rows[2].transAxes, ha="right", va="top")
     for found in branch.bifurcations:
-        values = found.point.observables
         marker = MARKERS[found.kind]
-        rows[0].plot(found.parameter, values["mean_speed"], marker, color="k", label=_label(found))
-        rows[2].plot(
-            found.parameter, np.degrees(values["largest_angle_of_attack"]), marker, color="k"
-        )
+        label = f"{found.kind}, {found.parameter:.4g}"
+        rows[0].plot(found.parameter, _speed(found.point), marker, color="k", label=label)
+        rows[2].plot(found.parameter, _angle(found.point), marker, color="k")
         for axes in rows:
             axes.axvline(found.parameter, color="0.8", linewidth=0.8, zorder=0)
     for verdict in dict.fromkeys(point.stability for point in branch.points):
@@ -61,28 +59,38 @@ def plot_bird_branch(branch: Branch) -> Figure:
     return figure
 
 
-def _draw(axes: Axes, branch: Branch, values: FloatArray, valid: BoolArray) -> None:
-    parameters = branch.parameters
-    for i, (before, after) in enumerate(itertools.pairwise(branch.points)):
-        between = [found for found in branch.bifurcations if found.after == i]
-        verdict = before.stability if between else after.stability
-        axes.plot(
-            parameters[i : i + 2],
-            values[i : i + 2],
-            "-",
-            color=VERDICT_COLOURS[verdict],
-            linewidth=2.0 if valid[i] and valid[i + 1] else 0.8,
-        )
+def _speed(point: BranchPoint) -> float:
+    return point.observables["mean_speed"]
 
 
-def _moduli(branch: Branch) -> FloatArray:
-    """Moduli (k, n) of the multipliers, largest first, without those that are all but zero."""
+def _angle(point: BranchPoint) -> float:
+    return float(np.degrees(point.observables[_ANGLE]))
+
+
+def _modulus(i: int, point: BranchPoint) -> float:
+    return float(np.abs(point.multipliers[i]))
+
+
+def _those_that_last(branch: Branch) -> list[int]:
+    """Positions of the multipliers that are not all but zero everywhere."""
     moduli = np.array([np.abs(point.multipliers) for point in branch.points])
-    return np.asarray(moduli[:, moduli.max(axis=0) > 1e-3])
+    return [int(i) for i in np.flatnonzero(moduli.max(axis=0) > 1e-3)]
 
 
-def _label(found: Bifurcation) -> str:
-    return f"{found.kind}, {found.parameter:.4g}"
+def _draw(axes: Axes, branch: Branch, value: Callable[[BranchPoint], float]) -> None:
+    for i, (before, after) in enumerate(itertools.pairwise(branch.points)):
+        # A change of verdict shows where it was located, else at the point that shows it first.
+        between = [found.point for found in branch.bifurcations if found.after == i]
+        for ends in itertools.pairwise([before, *between, after]):
+            shows = before if between and ends[0] is before else after
+            valid = all(point.observables[_ANGLE] <= LARGEST_ANGLE for point in ends)
+            axes.plot(
+                [point.parameter for point in ends],
+                [value(point) for point in ends],
+                "-",
+                color=VERDICT_COLOURS[shows.stability],
+                linewidth=2.0 if valid else 0.8,
+            )
 
 
 def _make_logarithmic(axes: Axes, low: float, high: float) -> None:
