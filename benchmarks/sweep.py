@@ -17,7 +17,6 @@ from rich.console import Console
 from rich.table import Table
 
 import birdmb
-from birdmb.studies.sweeps import Study, sweep
 
 COMPLIANT = Path(__file__).parent.parent / "topologies" / "ibis_compliant_shoulder.toml"
 VARY = {
@@ -26,14 +25,16 @@ VARY = {
 }
 
 
-def timed(workers: int, coarse: bool, directory: Path) -> tuple[float, Study]:
+def timed(workers: int, coarse: bool, directory: Path) -> tuple[float, birdmb.Study]:
     """Wall-clock seconds of the sweep, and what it found."""
     bird, model = birdmb.load_bird(COMPLIANT), partial(birdmb.MultibodyModel)
     if coarse:
         bird = bird.with_values({"wing.discretisation": 8})
         model = partial(birdmb.MultibodyModel, steps_per_beat=60)
     began = time.perf_counter()
-    study = sweep(bird, VARY, store=directory / f"{workers}.db", workers=workers, model=model)
+    study = birdmb.sweep(
+        bird, VARY, store=directory / f"{workers}.db", workers=workers, model=model
+    )
     return time.perf_counter() - began, study
 
 

@@ -12,7 +12,6 @@ from pathlib import Path
 from dask.distributed import Client, LocalCluster
 
 import birdmb
-from birdmb.studies.sweeps import sweep
 
 COMPLIANT = Path(__file__).parent.parent / "topologies" / "ibis_compliant_shoulder.toml"
 VARY = {"shoulder.flap.stiffness": [60, 50, 40, 30], "shoulder.flap.damping": [0.2, 0.1]}
@@ -22,7 +21,7 @@ def main(directory: Path) -> None:
     directory.mkdir(parents=True, exist_ok=True)
     # A coarse wing, so that the example takes a minute.
     bird = birdmb.load_bird(COMPLIANT).with_values({"wing.discretisation": 8})
-    run = partial(sweep, bird, VARY, model=partial(birdmb.MultibodyModel, steps_per_beat=60))
+    run = partial(birdmb.sweep, bird, VARY, model=partial(birdmb.MultibodyModel, steps_per_beat=60))
 
     with (
         LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,

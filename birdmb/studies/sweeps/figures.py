@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import xarray as xr
@@ -111,7 +111,7 @@ def _label(name: str) -> tuple[str, str]:
     return plain, f"{plain} ({unit})" if unit else plain
 
 
-def _places(axes: Axes, along: str, coordinate: xr.DataArray) -> np.ndarray:
+def _places(axes: Axes, along: Literal["x", "y"], coordinate: xr.DataArray) -> np.ndarray:
     """Where the values of a parameter stand on an axis; texts and switches stand side by side."""
     getattr(axes, f"set_{along}label")(_label(str(coordinate.name))[1])
     if coordinate.dtype.kind in "if":

@@ -13,7 +13,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from birdmb.errors import BirdmbError, OrbitError, StateError
-from birdmb.models import FlightCycle
+from birdmb.models import FlightCycle, MultibodyModel
 from birdmb.models.wing_model import WingModel
 from birdmb.orbits import ArgumentError, find_limit_cycle
 from birdmb.orbits.problem import HasInitialGuess
@@ -110,6 +110,7 @@ def _found(task: Task) -> tuple[FlightCycle, str]:
 
 def described(cycle: FlightCycle) -> dict[str, Any]:
     """What is kept of a limit cycle, fit for JSON: units as in `FlightCycle`, `None` for NaN."""
+    model = cast("WingModel", cycle.model)
     numbers = {
         "residual": cycle.residual,
         "integration_error": cycle.integration_error,
@@ -123,7 +124,7 @@ def described(cycle: FlightCycle) -> dict[str, Any]:
         "cost_of_transport": cycle.cost_of_transport,
         "period": cycle.period,
         "iterations": len(cycle.iterations) - 1,
-        "steps_per_beat": cast("WingModel", cycle.model).steps_per_beat,
+        "steps_per_beat": model.steps_per_beat,
     }
     return {
         **{name: value if math.isfinite(value) else None for name, value in numbers.items()},
@@ -133,5 +134,6 @@ def described(cycle: FlightCycle) -> dict[str, Any]:
         "multiplier_error": cycle.multiplier_errors.tolist(),
         "monodromy": cycle.monodromy.tolist(),
         "stability": cycle.stability,
+        "integrator": model.integration.method if isinstance(model, MultibodyModel) else "explicit",
         "warning": " ".join(assess_validity(cycle).warnings),
     }

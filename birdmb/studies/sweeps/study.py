@@ -84,9 +84,9 @@ class Study:
         Dimensions: the parameters, `state`, `state_at_start`, `multiplier` (largest modulus first).
         Where there is no cycle, or none yet, numbers are NaN and texts empty; states that only some
         points have are NaN at the others. `status` is "found", "failed" or "missing", `failure` the
-        reason, `warning` how a cycle leaves the model's validity, `start` the neighbour that the
-        search started from. The same study gives the same dataset to the last bit, however it was
-        computed; but for `seconds`, which `timings` adds.
+        reason, `warning` how a cycle leaves the model's validity, `integrator` explicit or
+        implicit, `start` the neighbour that the search started from. The same study gives the same
+        dataset to the last bit, however it was computed; but for `seconds`, which `timings` adds.
         """
         found = {place: o.result for place, o in self.outcomes.items() if o.result is not None}
         states = list(dict.fromkeys(name for result in found.values() for name in result["x0"]))
@@ -140,6 +140,7 @@ class Study:
             "start": {p: o.start for p, o in self.outcomes.items()},
             "stability": {p: r["stability"] for p, r in found.items()},
             "warning": {p: r["warning"] for p, r in found.items()},
+            "integrator": {p: r["integrator"] for p, r in found.items()},
         }
         shape = Grid(self.parameters).shape
         texts = {}
