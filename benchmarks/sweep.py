@@ -41,7 +41,9 @@ def timed(workers: int, coarse: bool, directory: Path) -> tuple[float, birdmb.St
 def main(coarse: bool) -> None:
     """Print the table."""
     load = os.getloadavg()[0] if hasattr(os, "getloadavg") else float("nan")
-    table = Table("workers", "sweep", "speed-up", "warm point", "from", "cold point", "failed")
+    table = Table(
+        "workers", "sweep", "speed-up", "busy", "warm point", "from", "cold point", "failed"
+    )
     with tempfile.TemporaryDirectory() as directory:
         runs = [timed(workers, coarse, Path(directory)) for workers in (1, 2)]
     for workers, (seconds, study) in enumerate(runs, 1):
@@ -52,6 +54,7 @@ def main(coarse: bool) -> None:
             str(workers),
             f"{seconds:.1f} s",
             f"{runs[0][0] / seconds:.2f}",
+            f"{data.seconds.values.sum() / (workers * seconds):.0%}",
             f"{np.median(warm):.2f} s",
             f"{warm.min():.2f} to {warm.max():.2f} s",
             f"{np.median(cold):.2f} s",

@@ -166,6 +166,7 @@ def test_stores_of_other_studies_are_refused(tmp_path):
         store, grid=SMALL | {MASS: [1.2, 1.4]}
     )
     assert Study.open(store).to_xarray().identical(before)
+    assert [path.name for path in tmp_path.iterdir()] == ["study.db"]
 
 
 def test_files_that_are_no_studies_are_refused_and_left_alone(tmp_path):

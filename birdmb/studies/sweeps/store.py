@@ -124,7 +124,8 @@ def read(path: str | PathLike[str]) -> Contents:
     path = Path(path)
     if not path.is_file():
         raise SweepError(f"{path}: there is no such study.")
-    uri = f"{path.absolute().as_uri()}?mode=ro"
+    # Not read-only, which would leave the files of the write-ahead log behind.
+    uri = f"{path.absolute().as_uri()}?mode=rw"
     with _told(path), closing(sqlite3.connect(uri, uri=True)) as connection:
         return _contents(path, connection)
 
