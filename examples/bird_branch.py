@@ -3,7 +3,7 @@
 Run `python examples/bird_branch.py [DIRECTORY]` for the branch from 60 to 2 N m/rad: its picture
 goes to the directory, and a run that was stopped goes on. With `--evidence` instead of a directory
 it prints what tells that the branch turns, with `--refined` where the fold is on other wings, with
-other steps, dampers and inertias.
+other steps and inertias.
 """
 
 import sys
@@ -102,8 +102,6 @@ def variations() -> Iterator[tuple[str, dict[str, object], int | None]]:
             f"segments.{bone}.inertia": [inertia] * 3 for bone in ("humerus", "forearm", "hand")
         }
         yield f"inertia {inertia} kg m2 of each segment", values, None
-    for damping in (0.1, 0.3):
-        yield f"damping {damping} N m s/rad", {"shoulder.flap.damping": damping}, None
 
 
 def refined(bird: birdmb.Bird) -> None:
