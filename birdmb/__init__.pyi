@@ -26,7 +26,7 @@ from .studies import (
     tunnel_and_free_flight,
 )
 from .studies.branch import bird_branch
-from .studies.sweeps import Study, sweep
+from .studies.sweeps import Study, SweepError, sweep
 from .topology import Bird, load_bird
 
 __all__ = [
@@ -46,6 +46,7 @@ __all__ = [
     "RigidModel",
     "StateError",
     "Study",
+    "SweepError",
     "TetheredModel",
     "TopologyError",
     "Trim",

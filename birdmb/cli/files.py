@@ -44,7 +44,7 @@ def write_results(cycle: FlightCycle, directory: Path, progress: Progress) -> li
     """Write `cycle.nc` and the figures into a directory; return what was written."""
     progress.doing("writing cycle.nc")
     written = [
-        _write(
+        write_whole(
             directory / "cycle.nc",
             lambda draft: cycle.to_xarray().to_netcdf(draft, engine="h5netcdf"),
         )
@@ -61,11 +61,11 @@ def write_results(cycle: FlightCycle, directory: Path, progress: Progress) -> li
     for name, draw in drawings.items():
         progress.doing(f"drawing {name}")
         save = partial(draw(cycle).savefig, dpi=_DPI, format="png")
-        written.append(_write(directory / name, save))
+        written.append(write_whole(directory / name, save))
     return written
 
 
-def _write(path: Path, write: Callable[[Path], object]) -> Path:
+def write_whole(path: Path, write: Callable[[Path], object]) -> Path:
     """Let `write` write a draft beside `path`, and put it in its place once it is whole."""
     draft = _draft(path)
     try:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import typer
 
-from birdmb.cli.files import _write as write_whole
+from birdmb.cli.files import write_whole
 from birdmb.cli.files import prepare
 from birdmb.studies.sweeps import Study
 from birdmb.topology import parse_assignment
