@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from rich.console import Console
 
-from birdmb.cli.files import write_whole
-from birdmb.cli.files import prepare, remove_drafts
+from birdmb.cli.files import prepare, remove_drafts, write_whole
 from birdmb.cli.interrupt import ending_at_once
 from birdmb.cli.outcome import InputError, SearchFailed
 from birdmb.cli.progress import Progress

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import typer
 
-from birdmb.cli.files import write_whole
-from birdmb.cli.files import prepare
+from birdmb.cli.files import prepare, write_whole
 from birdmb.studies.sweeps import Study
 from birdmb.topology import parse_assignment
 

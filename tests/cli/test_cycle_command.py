@@ -8,7 +8,7 @@ import xarray as xr
 from matplotlib.image import imread
 
 from birdmb import RigidModel, find_limit_cycle, load_bird
-from birdmb.cli.files import _write, prepare
+from birdmb.cli.files import prepare, write_whole
 
 from .conftest import COMPLIANT, IBIS
 
@@ -80,7 +80,7 @@ def test_a_crash_leaves_neither_half_a_file_nor_the_old_one_spoilt(tmp_path):
 
     (tmp_path / "cycle.nc").write_text("old")
     with pytest.raises(KeyboardInterrupt):
-        _write(tmp_path / "cycle.nc", half)
+        write_whole(tmp_path / "cycle.nc", half)
     assert [path.read_text() for path in tmp_path.iterdir()] == ["old"]
 
 
