@@ -43,8 +43,10 @@ def integrate_implicitly(
     """
     h = (t1 - t0) / steps
     x = x0
-    for i in range(steps):
-        x = x + _step(rhs, t0 + i * h, x, h, scale)
+    # A motion that runs away overflows; it is told by what is not finite, not by warnings.
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        for i in range(steps):
+            x = x + _step(rhs, t0 + i * h, x, h, scale)
     return x
 
 
@@ -87,6 +89,8 @@ def _linearised(
         jacobian = _jacobian(rhs, t + c * h, x + z, scale)
         for i in range(3):
             matrix[i * n : (i + 1) * n, j * n : (j + 1) * n] -= h * _MATRIX[i, j] * jacobian
+    if not np.isfinite(matrix).all():
+        raise _no_solution(t)
     factors = lu_factor(matrix)
     return lambda residual: np.asarray(lu_solve(factors, residual.ravel()).reshape(3, n))
 
