@@ -38,7 +38,7 @@ class Instant(NamedTuple):
 
     angles: FloatArray  # (J,) rad, of the drivers
     rates: FloatArray  # (J,) rad/s
-    accelerations: FloatArray  # (n,) of the prescribed coordinates, 0 elsewhere
+    accelerations: FloatArray  # (n,) of the drivers, 0 for the body
     shape: WingShape | None  # with the joints that turn the wing as a whole at zero
 
 
@@ -310,7 +310,7 @@ class MultibodyModel(WingModel):
         return self._springs.torques(angles - driver.angles, rates - driver.rates)
 
     def driver_accelerations(self, t: float) -> FloatArray:
-        """Accelerations (n,) that drivers give to the prescribed coordinates; 0 elsewhere."""
+        """Accelerations (n,) of the drivers, 0 for the body; free coordinates do not follow them."""
         return self.instant(t).accelerations
 
 
