@@ -310,7 +310,7 @@ class MultibodyModel(WingModel):
         return self._springs.torques(angles - driver.angles, rates - driver.rates)
 
     def driver_accelerations(self, t: float) -> FloatArray:
-        """Accelerations (n,) of the drivers, 0 for the body; free coordinates do not follow them."""
+        """Accelerations (n,) of the drivers, 0 for the body; only prescribed joints follow."""
         return self.instant(t).accelerations
 
 
