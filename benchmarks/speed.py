@@ -13,9 +13,9 @@ from rich.console import Console
 from rich.table import Table
 
 import birdmb
-from birdmb.aerodynamics.prescribed import at_phase, prescribed_wing, resultant_and_derivatives
+from birdmb.aerodynamics.prescribed import bird_loads, prescribed_wing
 from birdmb.models.exudyn_tree import ExudynBird
-from birdmb.models.multibody_kernel import wing_forces
+from birdmb.models.multibody_kernel import air_forces
 
 TOPOLOGIES = Path(__file__).parent.parent / "topologies"
 STATE = (18.0, -2.0, 0.1)
@@ -36,17 +36,16 @@ def best(run: Callable[[], object], repeat: int = 5, inner: int = 1) -> float:
 def load_evaluations(prescribed: birdmb.Bird, compliant: birdmb.Bird) -> tuple[float, float]:
     """Seconds of one evaluation of the loads in the two models' right-hand sides."""
     rigid = birdmb.RigidModel(prescribed)
-    table = prescribed_wing(rigid.wing, np.array([0.01]), *rigid.discretisation)
-    elements, inverse = at_phase(table.elements, 0), table.inverse[0]
-    density = prescribed.air.density
-    fixed = best(lambda: resultant_and_derivatives(elements, inverse, density, *STATE), inner=2000)
+    frame = rigid.airframe
+    table = prescribed_wing(rigid.wing, frame.tail, np.array([0.01]), *rigid.discretisation)
+    fixed = best(lambda: bird_loads(table, 0, frame, *STATE), inner=2000)
 
     model = birdmb.MultibodyModel(compliant)
     angles, rates = model.joint_motion(0.01, model.driven_state(0.01))
     shape = model.instant(0.01).shape
     free = best(
-        lambda: wing_forces(
-            model.wing, shape, model.turning, angles, rates, density, 0.1, 18.0, 1.0, 0.1
+        lambda: air_forces(
+            model.wing, shape, model.turning, angles, rates, frame, 0.1, 18.0, 1.0, 0.1
         ),
         inner=2000,
     )

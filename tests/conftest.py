@@ -26,6 +26,16 @@ def ibis_compliant():
 
 
 @pytest.fixture(scope="session")
+def ibis_tail():
+    return birdmb.load_bird(TOPOLOGIES / "ibis_tail.toml")
+
+
+@pytest.fixture(scope="session")
+def tail_cycle(ibis_tail):
+    return birdmb.find_limit_cycle(birdmb.RigidModel(ibis_tail))
+
+
+@pytest.fixture(scope="session")
 def ibis_published(ibis):
     return ibis.with_values({"wing.discretisation": "published"})
 

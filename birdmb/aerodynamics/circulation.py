@@ -6,7 +6,8 @@ to the chord, thin-airfoil theory and the downwash w of the wake give
     Gamma = 1/2 c 2 pi (|U| alpha - w),   w linear in Gamma,
 
 which is one linear system. Each element then feels rho Gamma (U_total x e_t) dl, U_total with the
-induced velocity. Everything is in body axes, moments are about the body's centre of mass G.
+induced velocity, and the profile drag 1/2 rho C_d c dl |U| U of the whole wind U without it.
+Everything is in body axes, moments are about the body's centre of mass G.
 """
 
 from typing import NamedTuple
@@ -24,7 +25,8 @@ class ElementLoads(NamedTuple):
     circulation: FloatArray  # (N,) m2/s
     angle_of_attack: FloatArray  # (N,) rad, geometric (before the downwash)
     speed: FloatArray  # (N,) m/s in the section's plane
-    force: FloatArray  # (N, 3) N
+    force: FloatArray  # (N, 3) N, profile drag included
+    profile_drag: FloatArray  # (N, 3) N
 
 
 @njit(cache=True)
@@ -63,12 +65,23 @@ def section_flow(
 
 
 @njit(cache=True)
-def element_loads(elements: Elements, density: float, u: float, w: float, q: float) -> ElementLoads:
-    """Circulation and force of every element for body velocity u, w (m/s), pitch rate q (rad/s)."""
+def element_loads(
+    elements: Elements, density: float, profile: float, u: float, w: float, q: float
+) -> ElementLoads:
+    """Circulation and force of every element for body velocity u, w (m/s), pitch rate q (rad/s).
+
+    `profile` is the drag coefficient of the sections.
+    """
     wind, speed, alpha = section_flow(elements, u, w, q)
     bound = np.pi * elements.chord * speed * alpha
     circulation: Array = np.linalg.solve(circulation_system(elements), bound)
-    return ElementLoads(circulation, alpha, speed, _forces(elements, density, wind, circulation))
+    drag = np.zeros_like(wind)
+    if profile > 0.0:
+        for e in range(speed.size):
+            strength = 0.5 * density * profile * elements.chord[e] * elements.width[e]
+            drag[e] = strength * np.sqrt(_dot(wind[e], wind[e])) * wind[e]
+    force = _forces(elements, density, wind, circulation) + drag
+    return ElementLoads(circulation, alpha, speed, force, drag)
 
 
 @njit(cache=True)

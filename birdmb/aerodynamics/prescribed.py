@@ -11,8 +11,10 @@ import numpy as np
 from numba import njit
 
 from birdmb._typing import BoolArray, FloatArray
+from birdmb.aerodynamics.airframe import Airframe, airframe_loads
 from birdmb.aerodynamics.circulation import section_flow
 from birdmb.aerodynamics.elements import Elements, circulation_system, place_elements
+from birdmb.aerodynamics.tail import TailSurface, tail_influence
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.shape import wing_shape
 
@@ -22,6 +24,7 @@ class PrescribedWing(NamedTuple):
 
     elements: Elements
     inverse: FloatArray  # (P, N, N) of the circulation's linear system
+    at_tail: FloatArray  # (P, 2, N) 1/m, velocity along x and z at the tail by the circulations
     beyond: FloatArray  # (P, N, 2), as in `WingShape`
     converged: BoolArray  # (P,) the lifting line was found
 
@@ -39,7 +42,12 @@ def driven(wing: WingArrays, t: float) -> tuple[FloatArray, FloatArray, FloatArr
 
 
 def prescribed_wing(
-    wing: WingArrays, times: FloatArray, elements: int, rounding: float, published: bool
+    wing: WingArrays,
+    tail: TailSurface,
+    times: FloatArray,
+    elements: int,
+    rounding: float,
+    published: bool,
 ) -> PrescribedWing:
     """Tabulate the wing at `times` (P,) s."""
     shapes = [wing_shape(wing, *driven(wing, t)[:2], elements, rounding, published) for t in times]
@@ -48,6 +56,7 @@ def prescribed_wing(
     return PrescribedWing(
         Elements(*(np.stack(arrays) for arrays in zip(*placed, strict=True))),
         np.asarray(np.linalg.inv(system), dtype=float),
+        np.stack([tail_influence(tail, elements.node) for elements in placed]),
         np.stack([shape.beyond for shape in shapes]),
         np.array([shape.converged for shape in shapes]),
     )
@@ -58,6 +67,7 @@ def every_second(wing: PrescribedWing) -> PrescribedWing:
     return PrescribedWing(
         Elements(*(array[::2].copy() for array in wing.elements)),
         wing.inverse[::2].copy(),
+        wing.at_tail[::2].copy(),
         wing.beyond[::2].copy(),
         wing.converged[::2].copy(),
     )
@@ -81,12 +91,33 @@ def at_phase(stack: Elements, k: int) -> Elements:
 
 
 @njit(cache=True)
-def resultant_and_derivatives(
-    elements: Elements, inverse: FloatArray, density: float, u: float, w: float, q: float
+def bird_loads(
+    wing: PrescribedWing, k: int, frame: Airframe, u: float, w: float, q: float
 ) -> FloatArray:
-    """Rows F_x, F_z (N), M_y (N m) of both wings; columns: value, d/du, d/dw, d/dq; (3, 4).
+    """Loads of the whole bird at the k-th phase, moving at u, w (m/s) and q (rad/s).
 
-    The wind is affine in (u, w, q), so the derivatives are exact.
+    Rows F_x, F_z (N), M_y (N m); columns: value, d/du, d/dw, d/dq; (3, 4), exact.
+    """
+    total, circulation = resultant_and_derivatives(
+        at_phase(wing.elements, k), wing.inverse[k], frame.density, frame.profile, u, w, q
+    )
+    return total + airframe_loads(frame, wing.at_tail[k] @ circulation, u, w, q)
+
+
+@njit(cache=True)
+def resultant_and_derivatives(
+    elements: Elements,
+    inverse: FloatArray,
+    density: float,
+    profile: float,
+    u: float,
+    w: float,
+    q: float,
+) -> tuple[FloatArray, FloatArray]:
+    """Loads (3, 4) of both wings and circulations (N, 4) m2/s of the right one.
+
+    Rows F_x, F_z (N), M_y (N m); columns: value, d/du, d/dw, d/dq. The wind is affine in u, w, q,
+    so the derivatives are exact.
     """
     n = elements.chord.size
     wind, speed, alpha = section_flow(elements, u, w, q)
@@ -124,16 +155,23 @@ def resultant_and_derivatives(
         gamma = circulation[e, 0]
         x, y, z = wind[e, 0], wind[e, 1] + vy[e, 0], wind[e, 2] + vz[e, 0]
         scale = 2.0 * density * elements.width[e]
+        # The profile drag, per `scale`: on the wind without the induced velocity.
+        relative = np.sqrt(wind[e, 0] ** 2 + wind[e, 1] ** 2 + wind[e, 2] ** 2)
+        drag = 0.5 * profile * elements.chord[e]
         for m in range(4):
             if m == 0:
-                fx = gamma * (y * t[2] - z * t[1])
-                fz = gamma * (x * t[1] - y * t[0])
+                fx = gamma * (y * t[2] - z * t[1]) + drag * relative * wind[e, 0]
+                fz = gamma * (x * t[1] - y * t[0]) + drag * relative * wind[e, 2]
             else:
-                dx, dy, dz = change[e, 0, m], vy[e, m], change[e, 2, m] + vz[e, m]
+                wx, wz = change[e, 0, m], change[e, 2, m]
+                dx, dy, dz = wx, vy[e, m], wz + vz[e, m]
                 g = circulation[e, m]
                 fx = g * (y * t[2] - z * t[1]) + gamma * (dy * t[2] - dz * t[1])
                 fz = g * (x * t[1] - y * t[0]) + gamma * (dx * t[1] - dy * t[0])
+                d_relative = (wind[e, 0] * wx + wind[e, 2] * wz) / relative
+                fx += drag * (d_relative * wind[e, 0] + relative * wx)
+                fz += drag * (d_relative * wind[e, 2] + relative * wz)
             total[0, m] += scale * fx
             total[1, m] += scale * fz
             total[2, m] += scale * (elements.position[e, 2] * fx - elements.position[e, 0] * fz)
-    return total
+    return total, circulation

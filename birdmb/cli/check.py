@@ -6,6 +6,8 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
+from birdmb.aerodynamics.body_drag import body_drag, body_drag_force
+from birdmb.aerodynamics.tail import tail_surface
 from birdmb.cli.inertia import spring_of
 from birdmb.cli.progress import Progress
 from birdmb.cli.report import table_of
@@ -13,6 +15,8 @@ from birdmb.cli.warnings import warnings_on
 from birdmb.topology import BONES, Bird
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.outline import wing_outline
+
+_DRAG_SPEED = 10.0  # m/s
 
 
 def run(bird: Bird) -> None:
@@ -49,10 +53,28 @@ def _bird(bird: Bird) -> Table:
         ("wing loading", f"{weight / area:.1f}", "N/m2"),
         ("wingbeat frequency", f"{bird.gait.frequency:.4g}", "Hz"),
         ("elements per wing", f"{numbers.elements}", f"{numbers.scheme}"),
+        *_tail_and_drag(bird),
     )
     for row in rows:
         table.add_row(*row)
     return table
+
+
+def _tail_and_drag(bird: Bird) -> list[tuple[str, str, str]]:
+    rows = []
+    if bird.tail is not None:
+        surface = tail_surface(bird)
+        rows += [
+            ("tail opening", f"{np.degrees(bird.tail.opening):.4g}", "°"),
+            ("tail span", f"{surface.span:.3f}", "m"),
+            ("tail area", f"{surface.area:.4f}", "m2"),
+        ]
+    if bird.drag.profile_coefficient:
+        rows.append(("profile drag coefficient", f"{bird.drag.profile_coefficient:.4g}", ""))
+    if bird.drag.body:
+        drag = -body_drag_force(body_drag(bird), _DRAG_SPEED, 0.0)[0, 0]
+        rows.append((f"body drag at {_DRAG_SPEED:g} m/s", f"{drag:.3g}", "N"))
+    return rows
 
 
 def _span_and_area(bird: Bird) -> tuple[float, float]:

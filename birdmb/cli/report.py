@@ -93,6 +93,7 @@ def _flight(cycle: FlightCycle, validity: Validity) -> Table:
         ("  of feathers", f"{cycle.feather_power:.3f}", "W", "the part that no joint delivers"),
         ("potential power", f"{cycle.potential_power:.3f}", "W", "drawn from sinking"),
         ("corrected power", f"{cycle.corrected_power:.3f}", "W", "the sum: as if level"),
+        *_losses(cycle),
         ("cost of transport", f"{cycle.cost_of_transport:.4f}", "", "power / (weight x speed)"),
         ("reduced frequency", f"{validity.reduced_frequency:.3f}", "", "pi f chord / speed"),
         ("Strouhal number", f"{validity.strouhal_number:.3f}", "", "f x tip excursion / speed"),
@@ -102,6 +103,7 @@ def _flight(cycle: FlightCycle, validity: Validity) -> Table:
             "°",
             "largest effective one, but for the tip",
         ),
+        *_tail_angle(validity),
         ("energy imbalance", f"{cycle.energy_imbalance:.1e}", "", "a check: 0 if exact"),
         (
             "integration error",
@@ -115,13 +117,31 @@ def _flight(cycle: FlightCycle, validity: Validity) -> Table:
     return table
 
 
+def _losses(cycle: FlightCycle) -> list[tuple[str, str, str, str]]:
+    """Where the power goes, unless all of it goes to the lift's induced drag."""
+    lost = cycle.dissipation
+    if not any(lost[name] for name in ("profile", "tail", "body")):
+        return []
+    return [
+        (f"  lost to {name}", f"{power:.3f}", "W", "its induced drag" if name == "lift" else "")
+        for name, power in lost.items()
+    ]
+
+
+def _tail_angle(validity: Validity) -> list[tuple[str, str, str, str]]:
+    angle = np.degrees(validity.largest_tail_angle)
+    return [] if np.isnan(angle) else [("angle of the tail", f"{angle:.1f}", "°", "largest")]
+
+
 def _joints(cycle: FlightCycle) -> Table:
-    """Powers into the joints; the column of the drivers only where it differs."""
-    joints, drivers = cycle.joint_powers, cycle.driver_powers
-    differ = any(abs(joints[name] - drivers[name]) > 1e-9 for name in joints)
-    columns = ("joint", "joint, W", "driver, W") if differ else ("joint", "joint, W")
-    table = table_of("Joint power, both wings", *columns, numbers=(1, 2))
-    for name, power in (*joints.items(), ("all", sum(joints.values()))):
-        driver = drivers.get(name, sum(drivers.values()))
-        table.add_row(name, f"{power:.3f}", *([f"{driver:.3f}"] if differ else []))
+    """Powers into the joints, and of their drivers by sign."""
+    joints, work = cycle.joint_powers, cycle.driver_work
+    table = table_of(
+        "Joint power, both wings: into the joint; of its driver, delivered and absorbed",
+        "joint", "joint, W", "driver, W", "delivered", "absorbed",
+        numbers=(1, 2, 3, 4),
+    )  # fmt: skip
+    rows = {name: (joints[name], work[name].net(), *work[name]) for name in joints}
+    for name, row in (*rows.items(), ("all", np.sum(list(rows.values()), axis=0))):
+        table.add_row(name, *(f"{power:.3f}" for power in row))
     return table

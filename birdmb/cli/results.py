@@ -49,12 +49,15 @@ def result_object(cycle: FlightCycle, validity: Validity, model_name: str) -> di
         "cost_of_transport": finite(cycle.cost_of_transport),
         "joint_powers": cycle.joint_powers,
         "driver_powers": cycle.driver_powers,
+        "driver_work": {name: work._asdict() for name, work in cycle.driver_work.items()},
         "feather_power": cycle.feather_power,
+        "dissipation": cycle.dissipation,
         "energy_imbalance": cycle.energy_imbalance,
         "integration_error": cycle.integration_error,
         "reduced_frequency": validity.reduced_frequency,
         "strouhal_number": validity.strouhal_number,
         "largest_angle_of_attack": validity.largest_angle_of_attack,
+        "largest_tail_angle": finite(validity.largest_tail_angle),
         "validity_warnings": list(validity.warnings),
     }
 

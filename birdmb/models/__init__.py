@@ -1,19 +1,27 @@
 """Models of a bird in flight: each turns a bird into a flow of named states."""
 
+from birdmb.models.energy import Work
 from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import Beat, FlightCycle
-from birdmb.models.loads import Loads
+from birdmb.models.gusts import CosineGust, GaussianGust, Gust, StepGust
+from birdmb.models.loads import Loads, TailLoads
 from birdmb.models.multibody import MultibodyModel, TetheredModel
 from birdmb.models.rigid import RigidModel
 from birdmb.models.wing_model import WingModel
 
 __all__ = [
     "Beat",
+    "CosineGust",
     "Flight",
     "FlightCycle",
+    "GaussianGust",
+    "Gust",
     "Loads",
     "MultibodyModel",
     "RigidModel",
+    "StepGust",
+    "TailLoads",
     "TetheredModel",
     "WingModel",
+    "Work",
 ]

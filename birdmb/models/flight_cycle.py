@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from birdmb import figures
 from birdmb._typing import FloatArray
 from birdmb.aerodynamics.prescribed import driven
+from birdmb.models.energy import DISSIPATORS, Work, dissipation, work_by_sign
 from birdmb.models.loads import Loads
 from birdmb.models.wing_model import WingModel
 from birdmb.orbits import LimitCycle
@@ -61,6 +62,24 @@ class Beat:
         on_body = self.force[:, 0] * u + self.force[:, 2] * w + self.moment[:, 1] * q
         about_joints = np.array([loads.joint_torques for loads in self.loads]) * self.joint_rates
         return np.asarray(on_body + 2.0 * about_joints.sum(axis=1))
+
+    @cached_property
+    def driver_power(self) -> FloatArray:
+        """Power (K, J) W of the drivers of each pair of joints."""
+        return 2.0 * self.actuator_torques * self.driver_rates
+
+    @cached_property
+    def dissipation(self) -> FloatArray:
+        """Power (K, 4) W lost to the air by lift, profile drag, tail and body."""
+        bodies = self.states[:, :3]
+        lost = [dissipation(at, *body) for at, body in zip(self.loads, bodies, strict=True)]
+        return np.array([[each[name] for name in DISSIPATORS] for each in lost])
+
+    @cached_property
+    def tail_angle(self) -> FloatArray:
+        """Angle of attack (K,) rad of the tail; NaN where there is none."""
+        tails = [loads.tail for loads in self.loads]
+        return np.array([np.nan if tail is None else tail.angle_of_attack for tail in tails])
 
 
 def world_velocity(states: FloatArray) -> FloatArray:
@@ -150,9 +169,41 @@ class FlightCycle(LimitCycle):
     @property
     def cost_of_transport(self) -> float:
         """`power` per weight and speed, dimensionless; NaN without weight."""
+        return self.transport_cost(self.power)
+
+    def transport_cost(self, power: float) -> float:
+        """Any power (W) per weight and speed, dimensionless; NaN without weight."""
         model = self._bird_model
         way = model.mass * model.bird.gravity * self.mean_speed
-        return self.power / way if way else math.nan
+        return power / way if way else math.nan
+
+    @cached_property
+    def driver_work(self) -> dict[str, Work]:
+        """Positive and negative mean power of the drivers, W, by joint, both wings together."""
+        powers = zip(self._bird_model.bird.joint_names, self.beat.driver_power.T, strict=True)
+        return {name: work_by_sign(self.beat.times, power) for name, power in powers}
+
+    def muscle_power(self, recovery: float = 1.0) -> float:
+        """Mean power of all drivers, W, if the part `recovery` of their negative work is recovered.
+
+        1 is what the thesis assumes; 0 that joints which are driven by the air only brake. What the
+        muscles take out of the metabolism is left to whoever knows their efficiency.
+
+        Raises:
+            ValueError: the part is not between 0 and 1.
+        """
+        if not 0.0 <= recovery <= 1.0:
+            raise ValueError(f"recovery is the part of negative work won back, not {recovery}.")
+        return sum(work.net(recovery) for work in self.driver_work.values())
+
+    @property
+    def dissipation(self) -> dict[str, float]:
+        """Mean power lost to the air, W: by lift (its induced drag), profile, tail and body.
+
+        Where the wings are massless the sum is `corrected_power`.
+        """
+        means = _mean(self.beat.dissipation)
+        return {name: float(mean) for name, mean in zip(DISSIPATORS, means, strict=True)}
 
     @property
     def joint_powers(self) -> dict[str, float]:
@@ -169,7 +220,7 @@ class FlightCycle(LimitCycle):
 
         Of a compliant joint it exceeds the joint's power by what the damper dissipates.
         """
-        return self._by_joint(2.0 * self.beat.actuator_torques * self.beat.driver_rates)
+        return self._by_joint(self.beat.driver_power)
 
     @property
     def feather_power(self) -> float:
@@ -235,6 +286,12 @@ class FlightCycle(LimitCycle):
                 "force": (("beat_time", "axis"), beat.force, _attrs("N", "air on the bird")),
                 "moment": (("beat_time", "axis"), beat.moment, _attrs("N m", "air, about G")),
                 "wing_power": ("beat_time", beat.wing_power, _attrs("W", "P_act")),
+                "tail_angle": ("beat_time", beat.tail_angle, _attrs("rad", "of attack")),
+                "dissipation": (
+                    ("beat_time", "load"),
+                    beat.dissipation,
+                    _attrs("W", "power lost to the air"),
+                ),
                 "joint_power": (
                     ("beat_time", "joint"),
                     beat.joint_power,
@@ -243,7 +300,7 @@ class FlightCycle(LimitCycle):
                 **of_wing,
             },
             coords={"beat_time": ("beat_time", beat.times, {"units": "s"}), "axis": axes}
-            | {"joint": joints},
+            | {"joint": joints, "load": list(DISSIPATORS)},
             attrs={
                 "bird": self._bird_model.bird.name,
                 "fingerprint": self._bird_model.bird.fingerprint(),

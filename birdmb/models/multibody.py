@@ -12,9 +12,10 @@ from birdmb.errors import StateError
 from birdmb.models.exudyn_tree import BODY_COORDINATES, ExudynBird
 from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
+from birdmb.models.gusts import Gust
 from birdmb.models.implicit import integrate_implicitly
 from birdmb.models.integration import Integration, Integrator, integration_for
-from birdmb.models.multibody_kernel import body_velocity, wing_forces
+from birdmb.models.multibody_kernel import air_forces, body_velocity
 from birdmb.models.rigid import RigidModel
 from birdmb.models.springs import Springs
 from birdmb.models.wing_model import (
@@ -57,6 +58,7 @@ class MultibodyModel(WingModel):
         bird: the bird.
         steps_per_beat: integration steps per wingbeat; by default the model chooses.
         integrator: "explicit", "implicit", or "auto" for the model to choose.
+        gust: velocity of the air, as for `WingModel`.
     """
 
     limit_cycle_type: type[LimitCycle] = FlightCycle
@@ -64,9 +66,14 @@ class MultibodyModel(WingModel):
     _body_states = len(BODY_STATES)
 
     def __init__(
-        self, bird: Bird, *, steps_per_beat: int | None = None, integrator: Integrator = "auto"
+        self,
+        bird: Bird,
+        *,
+        steps_per_beat: int | None = None,
+        integrator: Integrator = "auto",
+        gust: Gust | None = None,
     ) -> None:
-        super().__init__(bird, steps_per_beat=steps_per_beat)
+        super().__init__(bird, steps_per_beat=steps_per_beat, gust=gust)
         self._integrator: Integrator = integrator
         names = [joint.name for joint in bird.compliant_joints]
         free = self._body_states
@@ -285,16 +292,17 @@ class MultibodyModel(WingModel):
         angles = q[BODY_COORDINATES : BODY_COORDINATES + joints]
         rates = v[BODY_COORDINATES : BODY_COORDINATES + joints]
         instant = self.instant(t)
-        body, torques = wing_forces(
+        forward, down = self.air_velocity(t)
+        body, torques = air_forces(
             self.wing,
             instant.shape or self._shape(t, angles, rates),
             self.turning,
             angles,
             rates,
-            self.bird.air.density,
+            self.airframe,
             q[2],
-            v[0],
-            v[1],
+            v[0] - forward,
+            v[1] - down,
             v[2],
         )
         torques += self._spring_torques(instant, angles, rates)
@@ -324,6 +332,7 @@ class TetheredModel(MultibodyModel):
         body_state: u, w (m/s), q = 0 and theta (rad) of the body, (4,).
         steps_per_beat: integration steps per wingbeat; by default the model chooses.
         integrator: "explicit", "implicit", or "auto" for the model to choose.
+        gust: velocity of the air, as for `WingModel`.
 
     Raises:
         ValueError: the body turns.
@@ -339,8 +348,9 @@ class TetheredModel(MultibodyModel):
         *,
         steps_per_beat: int | None = None,
         integrator: Integrator = "auto",
+        gust: Gust | None = None,
     ) -> None:
-        super().__init__(bird, steps_per_beat=steps_per_beat, integrator=integrator)
+        super().__init__(bird, steps_per_beat=steps_per_beat, integrator=integrator, gust=gust)
         self._held = np.array(body_state, dtype=float)
         if self._held.shape != (4,) or self._held[2] != 0.0:
             raise ValueError(

@@ -4,9 +4,11 @@ import numpy as np
 from numba import njit
 
 from birdmb._typing import FloatArray
+from birdmb.aerodynamics.airframe import Airframe, airframe_loads
 from birdmb.aerodynamics.circulation import element_loads, resultant
 from birdmb.aerodynamics.elements import place_elements
 from birdmb.aerodynamics.joints import joint_torques
+from birdmb.aerodynamics.tail import tail_influence
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.chain import frame_after, joint_chain
 from birdmb.wing.shape import WingShape, turned
@@ -27,13 +29,13 @@ def _body_forces(loads: FloatArray, theta: float) -> FloatArray:
 
 
 @njit(cache=True)
-def wing_forces(
+def air_forces(
     wing: WingArrays,
     shape: WingShape,
     turning: int,
     angles: FloatArray,
     rates: FloatArray,
-    density: float,
+    frame: Airframe,
     theta: float,
     vx: float,
     vz: float,
@@ -42,7 +44,8 @@ def wing_forces(
     """Generalised forces of the air on body (3,) and on the joints (J,) of each wing.
 
     `shape` is the wing with its first `turning` joints at zero: they carry it as a whole, so their
-    `angles` and `rates` turn it into body axes here.
+    `angles` and `rates` turn it into body axes here. `vx`, `vz` (m/s, in the world) are the body's
+    velocity through the air.
     """
     chain = joint_chain(wing, angles)
     spin = np.zeros(3)
@@ -50,6 +53,11 @@ def wing_forces(
         spin += rates[j] * chain.axis[j]
     placed = place_elements(turned(shape, frame_after(wing, angles, turning), spin), wing.root)
     u, w = body_velocity(theta, vx, vz)
-    loads = element_loads(placed, density, u, w, pitch_rate)
+    loads = element_loads(placed, frame.density, frame.profile, u, w, pitch_rate)
     torques = joint_torques(wing, chain, placed.position, loads.force, shape.beyond)
-    return _body_forces(resultant(placed, loads.force), theta), torques
+    total = resultant(placed, loads.force)
+    induced = np.zeros((2, 4))
+    if frame.tail.span > 0.0:
+        induced[:, 0] = tail_influence(frame.tail, placed.node) @ loads.circulation
+    total += airframe_loads(frame, induced, u, w, pitch_rate)[:, 0]
+    return _body_forces(total, theta), torques

@@ -15,7 +15,8 @@ from birdmb.aerodynamics.prescribed import (
 from birdmb.errors import StateError
 from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
-from birdmb.models.rigid_kernel import integrate_rigid, rigid_rates
+from birdmb.models.gusts import Gust
+from birdmb.models.rigid_kernel import RigidBody, integrate_rigid, rigid_rates
 from birdmb.models.trim import mean_trim
 from birdmb.models.wing_model import (
     BODY_SCALE,
@@ -45,9 +46,12 @@ class RigidModel(WingModel):
     state_names = BODY_STATES
     state_units = BODY_UNITS
 
-    def __init__(self, bird: Bird, *, steps_per_beat: int | None = None) -> None:
-        super().__init__(bird, steps_per_beat=steps_per_beat)
-        self._constants = (bird.body.mass, bird.body.inertia_yy, bird.gravity, bird.air.density)
+    def __init__(
+        self, bird: Bird, *, steps_per_beat: int | None = None, gust: Gust | None = None
+    ) -> None:
+        super().__init__(bird, steps_per_beat=steps_per_beat, gust=gust)
+        body = RigidBody(bird.body.mass, bird.body.inertia_yy, bird.gravity)
+        self._constants = (self.airframe, body)
         self._tables: dict[tuple[float, float, int], PrescribedWing] = {}
 
     @cached_property
@@ -69,7 +73,9 @@ class RigidModel(WingModel):
         fine = self._table(0.0, period, steps)
         coarse = every_second(fine)
         ends = [
-            integrate_rigid(table, self._first_guess, period / n, *self._constants)[0][-1]
+            integrate_rigid(
+                table, self._first_guess, period / n, np.zeros((2 * n + 1, 2)), *self._constants
+            )[0][-1]
             for table, n in ((fine, steps), (coarse, steps // 2))
         ]
         return float(np.abs((ends[0] - ends[1]) / self.state_scale).max()) / (2**_ORDER - 1)
@@ -82,7 +88,8 @@ class RigidModel(WingModel):
     def rhs(self, t: float, x: npt.ArrayLike) -> FloatArray:
         """Rates (4,) of the states at time t (s) in state x (4,)."""
         wing = self._tabulate(t, 0.0, 0)
-        rates, _ = rigid_rates(wing, 0, np.asarray(x, dtype=float), *self._constants)
+        gust = np.array(self.air_velocity(t))
+        rates, _ = rigid_rates(wing, 0, np.asarray(x, dtype=float), gust, *self._constants)
         return np.asarray(rates)
 
     def flow(self, x0: npt.ArrayLike, t0: float, t1: float) -> FloatArray:
@@ -111,8 +118,8 @@ class RigidModel(WingModel):
     @cached_property
     def _first_guess(self) -> FloatArray:
         times = np.linspace(0.0, self.bird.period, 17)[:-1]
-        wing = prescribed_wing(self.wing, times, *self.discretisation)
-        return mean_trim(self.bird, wing)
+        wing = prescribed_wing(self.wing, self.airframe.tail, times, *self.discretisation)
+        return mean_trim(self.bird, wing, self.airframe)
 
     def _integrate(
         self, x0: npt.ArrayLike, t0: float, t1: float
@@ -123,6 +130,7 @@ class RigidModel(WingModel):
             self._table(t0 % self.bird.period, t1 - t0, steps),
             start,
             (t1 - t0) / steps,
+            self._gusts(t0, t1, 2 * steps),
             *self._constants,
         )
         if not np.isfinite(found[0]).all():
@@ -131,6 +139,11 @@ class RigidModel(WingModel):
                 f"t = {t1:.4g} s (start: {self._described(start)})."
             )
         return found
+
+    def _gusts(self, t0: float, t1: float, steps: int) -> FloatArray:
+        if self._gust is None:
+            return np.zeros((steps + 1, 2))
+        return np.array([self.air_velocity(t) for t in np.linspace(t0, t1, steps + 1)])
 
     def _described(self, x: FloatArray) -> str:
         return ", ".join(f"{n} = {v:.4g}" for n, v in zip(self.state_names, x, strict=True))
@@ -146,7 +159,7 @@ class RigidModel(WingModel):
 
     def _tabulate(self, t0: float, duration: float, steps: int) -> PrescribedWing:
         times = t0 + duration * np.arange(2 * steps + 1) / max(2 * steps, 1)
-        wing = prescribed_wing(self.wing, times, *self.discretisation)
+        wing = prescribed_wing(self.wing, self.airframe.tail, times, *self.discretisation)
         if not wing.converged.all():
             t = float(times[np.argmin(wing.converged)])
             raise lifting_line_lost(self.bird, t, driven(self.wing, t)[0])

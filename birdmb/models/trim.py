@@ -4,14 +4,15 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from birdmb._typing import FloatArray
-from birdmb.aerodynamics.prescribed import PrescribedWing, at_phase, resultant_and_derivatives
+from birdmb.aerodynamics.airframe import Airframe
+from birdmb.aerodynamics.prescribed import PrescribedWing, bird_loads
 from birdmb.topology import Bird
 
 _SLOWEST, _FASTEST = 1.0, 60.0  # m/s
 _BALANCED = 1e-12  # (m/s2)^2
 
 
-def mean_trim(bird: Bird, wing: PrescribedWing) -> FloatArray:
+def mean_trim(bird: Bird, wing: PrescribedWing, frame: Airframe) -> FloatArray:
     """State (4,) u, w, q = 0, theta that balances the mean loads of a body held steady.
 
     `wing` holds phases at equal distances over a whole beat. Where no state balances them, the one
@@ -23,9 +24,7 @@ def mean_trim(bird: Bird, wing: PrescribedWing) -> FloatArray:
     def mean_loads(u: float, w: float) -> FloatArray:
         total = np.zeros((3, 4))
         for k in range(phases):
-            total += resultant_and_derivatives(
-                at_phase(wing.elements, k), wing.inverse[k], bird.air.density, u, w, 0.0
-            )
+            total += bird_loads(wing, k, frame, u, w, 0.0)
         return np.asarray(total / phases)
 
     def accelerations(y: FloatArray) -> FloatArray:

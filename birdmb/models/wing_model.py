@@ -8,11 +8,13 @@ import numpy as np
 import numpy.typing as npt
 
 from birdmb._typing import FloatArray
+from birdmb.aerodynamics.airframe import airframe
 from birdmb.aerodynamics.circulation import element_loads
 from birdmb.aerodynamics.elements import place_elements
 from birdmb.aerodynamics.joints import joint_torques
 from birdmb.aerodynamics.prescribed import driven
 from birdmb.errors import StateError
+from birdmb.models.gusts import Gust
 from birdmb.models.loads import Loads, assemble_loads
 from birdmb.topology import Bird
 from birdmb.wing.arrays import wing_arrays
@@ -35,14 +37,19 @@ class WingModel(ABC):
     Args:
         bird: the bird.
         steps_per_beat: integration steps per wingbeat; by default the model chooses.
+        gust: velocity of the air at a time, uniform in space; by default the air is still.
     """
 
     state_names: tuple[str, ...]
     state_units: tuple[str, ...]
 
-    def __init__(self, bird: Bird, *, steps_per_beat: int | None = None) -> None:
+    def __init__(
+        self, bird: Bird, *, steps_per_beat: int | None = None, gust: Gust | None = None
+    ) -> None:
         self.bird = bird
         self.wing = wing_arrays(bird)
+        self.airframe = airframe(bird)
+        self._gust = gust
         self.period: float | None = bird.period
         self._steps_wanted = steps_per_beat
         numbers = bird.wing.resolved_discretisation
@@ -61,6 +68,13 @@ class WingModel(ABC):
     @abstractmethod
     def flow(self, x0: npt.ArrayLike, t0: float, t1: float) -> FloatArray:
         """State (n,) at t1 (s) of the flight through x0 (n,) at t0; raises `StateError`."""
+
+    def air_velocity(self, t: float) -> tuple[float, float]:
+        """Velocity (m/s) of the air in the world at t (s), along X (forward) and Z (down)."""
+        if self._gust is None:
+            return 0.0, 0.0
+        horizontal, upwards = self._gust(t)
+        return float(horizontal), -float(upwards)
 
     def body_state(self, x: FloatArray) -> FloatArray:
         """The body's part u, w, q, theta (4,) of a state."""
@@ -92,7 +106,12 @@ class WingModel(ABC):
         if not shape.converged:
             raise lifting_line_lost(self.bird, t, angles)
         elements = place_elements(shape, self.wing.root)
-        found = element_loads(elements, self.bird.air.density, *self.body_state(state)[:3])
+        u, w, q, theta = self.body_state(state)
+        forward, down = self.air_velocity(t)
+        c, s = np.cos(theta), np.sin(theta)
+        motion = u - forward * c + down * s, w - forward * s - down * c, q
+        frame = self.airframe
+        found = element_loads(elements, frame.density, frame.profile, *motion)
         torques = joint_torques(
             self.wing,
             joint_chain(self.wing, angles),
@@ -100,14 +119,14 @@ class WingModel(ABC):
             found.force,
             shape.beyond,
         )
-        return assemble_loads(elements, found, torques)
+        return assemble_loads(elements, found, torques, frame, motion)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle as the call that makes the model: compiled tables are made again where needed."""
         return partial(type(self), self.bird, **self._options()), ()
 
     def _options(self) -> dict[str, Any]:
-        return {"steps_per_beat": self._steps_wanted}
+        return {"steps_per_beat": self._steps_wanted, "gust": self._gust}
 
     def _steps(self, t0: float, t1: float) -> int:
         return max(1, round(self.steps_per_beat * abs(t1 - t0) / self.bird.period))

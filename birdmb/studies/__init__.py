@@ -9,11 +9,12 @@ from birdmb.studies.perturbed_figure import plot_perturbed_flight
 from birdmb.studies.trim import Trim, trim_flight
 from birdmb.studies.tunnel import tunnel_and_free_flight
 from birdmb.studies.tunnel_figure import plot_tunnel_and_free_flight
-from birdmb.studies.validity import Excess, Validity, assess_validity
+from birdmb.studies.validity import Excess, TailExcess, Validity, assess_validity
 
 __all__ = [
     "Excess",
     "ModelFactory",
+    "TailExcess",
     "Trim",
     "TrimError",
     "Validity",

@@ -34,6 +34,7 @@ from birdmb.wing.outline import wing_outline
 TIP_AREA = 0.01
 LARGEST_ANGLE = float(np.radians(15.0))
 LARGEST_REDUCED_FREQUENCY = 0.2
+LARGEST_TAIL_ANGLE = float(np.radians(5.0))
 
 
 @dataclass(frozen=True)
@@ -82,6 +83,32 @@ class Excess:
 
 
 @dataclass(frozen=True)
+class TailExcess:
+    """How a flight leaves the validity of the tail's slender-wing lift; `str()` is a sentence."""
+
+    value: float
+    """Largest modulus of the tail's angle of attack, rad."""
+    limit: float
+    """The limit it exceeds, rad."""
+    time: float
+    """Time when it is largest, s."""
+    phase: float
+    """The same as a part of the beat, in [0, 1)."""
+    share: float
+    """Part of the beat that is beyond the limit."""
+    quantity: str = "tail angle of attack"
+
+    def __str__(self) -> str:
+        """Say what, how much and when."""
+        return (
+            f"The {self.quantity} reaches {np.degrees(self.value):.1f} deg, beyond "
+            f"{np.degrees(self.limit):.3g} deg, at t = {self.time:.4g} s (phase {self.phase:.2f} "
+            f"of the beat); {self.share:.0%} of the beat are beyond it. A real tail has vortex "
+            f"lift there, which the slender-wing formula leaves out."
+        )
+
+
+@dataclass(frozen=True)
 class Validity:
     """How far a flight is from the limits of the quasi-steady model.
 
@@ -95,13 +122,15 @@ class Validity:
             and the speed of the flight; that is omega c/(2 U), on half the chord.
         strouhal_number: f A/U, with A the distance between the highest and the lowest place of the
             wing tip relative to the body, along its z axis (Taylor, Nudds & Thomas 2003).
+        largest_tail_angle: largest modulus of the tail's angle of attack, rad; NaN without a tail.
         excesses: where the limits are exceeded; none if the flight is within them.
     """
 
     data: xr.Dataset
     reduced_frequency: float
     strouhal_number: float
-    excesses: tuple[Excess, ...]
+    largest_tail_angle: float
+    excesses: tuple[Excess | TailExcess, ...]
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -124,6 +153,7 @@ def assess_validity(
     *,
     largest_angle: float = LARGEST_ANGLE,
     largest_reduced_frequency: float = LARGEST_REDUCED_FREQUENCY,
+    largest_tail_angle: float = LARGEST_TAIL_ANGLE,
 ) -> Validity:
     """Compare a limit cycle with the limits of the quasi-steady model, element by element.
 
@@ -131,6 +161,7 @@ def assess_validity(
         cycle: limit cycle of a bird.
         largest_angle: largest modulus of the effective angle of attack, rad.
         largest_reduced_frequency: largest k of the whole flight.
+        largest_tail_angle: largest modulus of the tail's angle of attack, rad.
     """
     model = cast(WingModel, cycle.model)
     frequency = model.bird.gait.frequency
@@ -141,7 +172,7 @@ def assess_validity(
     span = np.array([loads.width.sum() for loads in cycle.beat.loads])[:-1]
     mean_chord = float((area.sum(axis=1) / span).mean())
     k = np.pi * frequency * mean_chord / cycle.mean_speed
-    excesses = list(_beyond_angle(data, largest_angle))
+    excesses: list[Excess | TailExcess] = list(_beyond_angle(data, largest_angle))
     if k > largest_reduced_frequency:
         local = data["reduced_frequency"].values
         beyond = local > largest_reduced_frequency
@@ -149,11 +180,26 @@ def assess_validity(
         excesses.append(
             _excess(data, "reduced frequency", where, beyond, k, largest_reduced_frequency)
         )
+    tail_angle = np.abs(cycle.beat.tail_angle[:-1])
+    if (tail_angle > largest_tail_angle).any():
+        excesses.append(_tail_excess(cycle, tail_angle, largest_tail_angle))
     return Validity(
         data=data,
         reduced_frequency=float(k),
         strouhal_number=frequency * _tip_excursion(cycle, model) / cycle.mean_speed,
+        largest_tail_angle=float(tail_angle.max()),
         excesses=tuple(excesses),
+    )
+
+
+def _tail_excess(cycle: FlightCycle, angle: FloatArray, limit: float) -> TailExcess:
+    time = float(cycle.beat.times[np.argmax(angle)])
+    return TailExcess(
+        value=float(angle.max()),
+        limit=limit,
+        time=time,
+        phase=float(np.mod(time / cycle.period, 1.0)),
+        share=float(np.mean(angle > limit)),
     )
 
 

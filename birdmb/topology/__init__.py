@@ -1,5 +1,6 @@
 """The bird as data: topology files, their validation, and dotted names for every value."""
 
+from birdmb.topology.airframe import Apex, Drag, Tail
 from birdmb.topology.bird import Bird, Segments
 from birdmb.topology.loading import load_bird
 from birdmb.topology.parts import (
@@ -22,16 +23,19 @@ __all__ = [
     "BONES",
     "PRESETS",
     "Air",
+    "Apex",
     "Bird",
     "Body",
     "Bone",
     "Discretisation",
+    "Drag",
     "Feather",
     "Gait",
     "Joint",
     "Root",
     "Segment",
     "Segments",
+    "Tail",
     "Wing",
     "load_bird",
     "parse_assignment",

@@ -9,6 +9,7 @@ from typing import Any, Self
 from pydantic import Field, field_validator, model_validator
 
 from birdmb.errors import TopologyError
+from birdmb.topology.airframe import Drag, Tail
 from birdmb.topology.messages import nearest, problem, shown
 from birdmb.topology.parts import (
     BONES,
@@ -34,7 +35,7 @@ class Segments(Part):
 
 
 class Bird(Part):
-    """A bird with its gait: body, two mirror-image wings, joints in order, feathers and air.
+    """A bird with its gait: body, two mirror-image wings, tail, joints in order, feathers, air.
 
     Lengths in m, masses in kg, angles in rad. A variation is a new bird, see `with_values`.
     `Bird.model_validate(dict)` raises pydantic's own error, `load_bird` and the variations
@@ -52,6 +53,8 @@ class Bird(Part):
     feathers: tuple[Feather, ...] = Field(
         description="feathers that span the wing, one at the shoulder and one at the hand's tip"
     )
+    tail: Tail | None = Field(default=None, description="tail, a table; none if left out")
+    drag: Drag = Field(default=Drag(), description="drag besides the induced one, a table")
 
     @field_validator("joints")
     @classmethod

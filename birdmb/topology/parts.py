@@ -72,6 +72,9 @@ class Air(Part):
     """The air the bird flies in."""
 
     density: NonNegative = Field(default=1.225, description="density of the air, kg/m3")
+    kinematic_viscosity: Positive = Field(
+        default=1.5e-5, description="viscosity over density, m2/s; friction of tail and body"
+    )
 
 
 class Gait(Part):

@@ -12,12 +12,15 @@ from birdmb.aerodynamics.prescribed import (
     prescribed_wing,
     resultant_and_derivatives,
 )
+from birdmb.aerodynamics.tail import TailSurface
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.chain import joint_chain
 from birdmb.wing.shape import WingShape, wing_shape
 
 # Small, so that what is left is the discretisation and not alpha squared.
 DENSITY, SPEED, ALPHA = 1.225, 10.0, 1e-3
+PROFILE = 0.02
+NO_TAIL = TailSurface(0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0, 1.5e-5, False, False)
 
 
 def flat_wing(chord_at, elements, semi_span=1.0, plunge=0.0):
@@ -44,7 +47,7 @@ def flat_wing(chord_at, elements, semi_span=1.0, plunge=0.0):
 def coefficients(shape, area, u, w):
     """Lift and induced-drag coefficients in wind axes."""
     placed = place_elements(shape, np.zeros(3))
-    fx, fz, _ = resultant(placed, element_loads(placed, DENSITY, u, w, 0.0).force)
+    fx, fz, _ = resultant(placed, element_loads(placed, DENSITY, 0.0, u, w, 0.0).force)
     V = np.hypot(u, w)
     lift, drag = (-fz * u + fx * w) / V, (-fx * u - fz * w) / V
     q = 0.5 * DENSITY * V**2 * area
@@ -76,7 +79,7 @@ def test_elliptic_wing_has_constant_downwash():
     root = 8.0 / (np.pi * 8.0)
     shape = flat_wing(lambda y: root * np.sqrt(1 - y**2), 64)
     placed = place_elements(shape, np.zeros(3))
-    gamma = element_loads(placed, DENSITY, *wind(), 0.0).circulation
+    gamma = element_loads(placed, DENSITY, 0.0, *wind(), 0.0).circulation
     downwash = (placed.induced_z @ gamma)[:-4]
     np.testing.assert_allclose(downwash, SPEED * ALPHA * (2 / 8) / (1 + 2 / 8), rtol=1e-3)
 
@@ -160,7 +163,7 @@ def test_the_folded_system_is_that_of_both_wings(wing):
 def test_circulation_solves_its_equation(wing):
     """Gamma = 1/2 c 2 pi (|U| alpha - w), with w the downwash normal to the projected line."""
     placed = placed_at(wing, 0.21)
-    loads = element_loads(placed, DENSITY, 18.0, -2.0, 0.3)
+    loads = element_loads(placed, DENSITY, 0.0, 18.0, -2.0, 0.3)
     vy, vz = placed.induced_y @ loads.circulation, placed.induced_z @ loads.circulation
     d = np.diff(placed.node, axis=0)
     w = (vz * d[:, 1] - vy * d[:, 2]) / np.hypot(d[:, 1], d[:, 2])
@@ -176,8 +179,8 @@ def test_circulation_solves_its_equation(wing):
 def test_force_against_far_field_momentum():
     """Trefftz plane: lift = rho V sum Gamma dy, drag = rho/2 sum Gamma w dy, of a flat wing."""
     placed = place_elements(flat_wing(lambda y: 0.2 + 0 * y, 64), np.zeros(3))
-    loads = element_loads(placed, DENSITY, *wind(0.0), 0.0)
-    tilted = element_loads(placed, DENSITY, *wind(ALPHA), 0.0)
+    loads = element_loads(placed, DENSITY, 0.0, *wind(0.0), 0.0)
+    tilted = element_loads(placed, DENSITY, 0.0, *wind(ALPHA), 0.0)
     assert np.abs(loads.force).max() < 1e-14
     gamma, dy = tilted.circulation, placed.width
     u, w = wind(ALPHA)
@@ -202,7 +205,7 @@ def test_loads_do_not_depend_on_the_axes(wing):
     """
     placed = placed_at(wing, 0.07)
     u, w, q = 15.0, -1.0, 0.4
-    base = element_loads(placed, DENSITY, u, w, q)
+    base = element_loads(placed, DENSITY, 0.0, u, w, q)
     c, s = np.cos(0.3), np.sin(0.3)
     R = np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
     turned_elements = placed._replace(
@@ -212,19 +215,19 @@ def test_loads_do_not_depend_on_the_axes(wing):
         }
     )
     u2, _, w2 = R @ [u, 0.0, w]
-    moved = element_loads(turned_elements, DENSITY, u2, w2, q)
+    moved = element_loads(turned_elements, DENSITY, 0.0, u2, w2, q)
     np.testing.assert_allclose(moved.speed, base.speed, rtol=1e-13)
     np.testing.assert_allclose(moved.angle_of_attack, base.angle_of_attack, atol=1e-14)
 
 
 def test_derivatives_by_the_state_are_exact(wing):
     """Against central differences, whose error falls by four when their step is halved."""
-    table = prescribed_wing(wing, np.array([0.04]), 16, 0.5, False)
+    table = prescribed_wing(wing, NO_TAIL, np.array([0.04]), 16, 0.5, False)
     placed = at_phase(table.elements, 0)
     state = np.array([17.0, -1.5, 0.7])
 
     def loads(x):
-        return resultant_and_derivatives(placed, table.inverse[0], DENSITY, *x)
+        return resultant_and_derivatives(placed, table.inverse[0], DENSITY, PROFILE, *x)[0]
 
     exact = loads(state)[:, 1:]
     errors = []
@@ -233,7 +236,7 @@ def test_derivatives_by_the_state_are_exact(wing):
         differences = [(loads(state + e)[:, 0] - loads(state - e)[:, 0]) / (2 * h) for e in steps]
         errors.append(np.abs(np.column_stack(differences) - exact).max())
     assert errors[0] / errors[1] == pytest.approx(4, rel=0.05)
-    direct = element_loads(placed, DENSITY, *state)
+    direct = element_loads(placed, DENSITY, PROFILE, *state)
     np.testing.assert_allclose(loads(state)[:, 0], resultant(placed, direct.force), rtol=1e-12)
 
 
@@ -245,7 +248,7 @@ def test_the_split_between_bones_moves_no_load(wing):
     angles, rates, _ = driven(wing, 0.03)
     shape = wing_shape(wing, angles, rates, 16, 0.5, False)
     placed = place_elements(shape, wing.root)
-    force = element_loads(placed, DENSITY, 18.0, -2.0, 0.3).force
+    force = element_loads(placed, DENSITY, 0.0, 18.0, -2.0, 0.3).force
     chain = joint_chain(wing, angles)
     torques = [
         joint_torques(wing, chain, placed.position, force, beyond)

@@ -6,9 +6,9 @@ import pickle
 import numpy as np
 import pytest
 
-from birdmb.topology import BONES, load_bird
+from birdmb.topology import BONES, Apex, Drag, Tail, load_bird
 
-NAMES = ("ibis", "ibis_massless", "ibis_compliant_shoulder", "ibis_thesis_ch8")
+NAMES = ("ibis", "ibis_massless", "ibis_compliant_shoulder", "ibis_tail", "ibis_thesis_ch8")
 
 # joint: axis, offset, amplitude and phase in degrees
 GAIT = {
@@ -115,3 +115,21 @@ def test_birds_are_values(birds, name):
     assert type(bird).model_validate(bird.model_dump()) == bird
     assert type(bird).model_validate_json(bird.model_dump_json()) == bird
     assert len({other.fingerprint() for other in birds.values()}) == len(NAMES)
+
+
+def test_the_bird_with_a_tail_is_the_ibis_in_the_gait_of_chapter_6(birds):
+    assert birds["ibis_tail"] == birds["ibis"].model_copy(
+        update={
+            "tail": Tail(apex=Apex(x=-0.3), chord=0.3, opening_deg=40, incidence_deg=2),
+            "drag": Drag(profile_coefficient=0.02, body=True),
+        }
+    ).with_values(
+        {
+            "name": "ibis_tail",
+            "shoulder.sweep.offset_deg": -14.5,
+            "shoulder.sweep.amplitude_deg": 14,
+            "elbow.sweep.offset_deg": 10,
+            "elbow.sweep.amplitude_deg": 10,
+            "forearm.roll.offset_deg": -8.398,
+        }
+    )
