@@ -71,4 +71,4 @@ def floquet(
             f"the states; allowed {closure_tolerance:.1g}). Refine it by find_limit_cycle first.",
             closure,
         )
-    return FloquetResult(**linearise(equations, points, period, solver))
+    return FloquetResult(**linearise(equations, points, period, solver, residual))

@@ -8,39 +8,45 @@ import numpy as np
 
 from birdmb._typing import FloatArray
 from birdmb.orbits.multipliers import MultiplierSolver, Spectrum, product
+from birdmb.orbits.segments import Correction
 from birdmb.orbits.shooting import ShootingEquations
 
-# Displacement, in units of the state scale, over which the change of the Jacobians is observed.
-_PROBE = 1e-5
 # An orbit that moves by less than this part of the state scale in a period stands still.
 _STANDSTILL = 1e-5
 
 
 def linearise(
-    equations: ShootingEquations, points: FloatArray, period: float, solver: MultiplierSolver
+    equations: ShootingEquations,
+    points: FloatArray,
+    period: float,
+    solver: MultiplierSolver,
+    residual: FloatArray | None = None,
 ) -> dict[str, Any]:
     """Linearise the flow along the closed orbit through `points` (M, n).
 
+    `residual` is that of the equations there, if it is known.
+
     The error bounds hold three parts: the errors of the segment Jacobians (differences: from a
-    second step; variational: the accuracy that the model declares), the round-off of the
-    eigenvalues, and the error of the orbit: the Newton correction that is left, times the change of
-    the Jacobians seen over a small displacement along it. They do not hold the discretisation of
-    the model itself, which only its refinement shows.
+    second estimate; variational: the accuracy that the model declares), the round-off of the
+    eigenvalues, and the error of the orbit: the change of the Jacobians over the Newton correction
+    that is left. They do not hold the discretisation of the model itself, which only its refinement
+    shows.
 
     Returns:
         The fields of a `FloquetResult`, by name.
     """
     segments = equations.segments
-    factors, errors = segments.jacobians_and_errors(points, period)
     u = equations.pack(points, period)
-    residual = equations.residual(u)
+    if residual is None:
+        residual = equations.residual(u)
+    ends = equations.ends_of(points, residual)
+    factors, curvatures = segments.jacobians_and_curvatures(points, period, ends)
     # Least squares: an orbit that is one of a family (|Lambda| = 1) has a singular Jacobian.
-    matrix = equations.assemble(points, period, factors).toarray()
-    correction = np.linalg.lstsq(matrix, -residual)[0]
-    length = float(np.linalg.norm(correction))
-    if length > 0:
-        displaced = equations.unpack(u + correction * (_PROBE / length))
-        errors = errors + np.abs(segments.jacobians(*displaced) - factors) * (length / _PROBE)
+    matrix = equations.assemble(points, period, factors, ends).toarray()
+    way = np.linalg.lstsq(matrix, -residual)[0]
+    length = float(np.linalg.norm(way))
+    correction = Correction(length, lambda reach: equations.unpack(u + way * (reach / length)))
+    factors, errors = segments.refined(points, period, factors, curvatures, correction)
     spectrum = solver(factors, errors, segments.scale)
     return {
         "model": segments.model,

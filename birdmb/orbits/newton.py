@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
@@ -19,9 +21,9 @@ SolverMethod = Literal["newton", "levenberg-marquardt"]
 
 _SHORTEST_DAMPING = 2.0**-12
 _SUFFICIENT_DECREASE = 1e-4
-# A Jacobian by differences costs 2 n flows, a trial one: an old one earns its keep if it still
-# gains a digit.
-_REUSE_DECREASE = 0.1
+# A Jacobian by differences costs 2 n flows, a trial one: updated steps earn their keep as long as
+# each still takes away two thirds of the residual.
+_REUSE_DECREASE = 1 / 3
 _SINGULAR_CONDITION = 1e14
 # Differences leave a singular Jacobian regular by their noise; a failed search gives it away.
 _SUSPECT_CONDITION = 1e8
@@ -39,7 +41,8 @@ class Iteration:
         damping: fraction of the Newton step taken, or the Levenberg-Marquardt parameter.
         x: state (n,) at the start of the orbit.
         period: period in s.
-        jacobian_reused: the step was made with the Jacobian of an earlier point.
+        jacobian_reused: the step was made with the Jacobian of an earlier point, or a given one,
+            updated by the steps since.
     """
 
     number: int
@@ -117,13 +120,15 @@ def solve(
     tolerance: float,
     max_iterations: int,
     callback: Callable[[Iteration], None] | None = None,
+    first_jacobian: sp.csc_array | None = None,
 ) -> tuple[FloatArray, FloatArray, tuple[Iteration, ...]]:
     """Solve equations(u) = 0 from u.
 
-    Newton: line search by halving on the Euclidean norm; where Jacobians are dear, a step with the
-    previous one is tried first after a full step and kept only if it cuts the residual tenfold.
-    Levenberg-Marquardt: the
-    parameter is a factor times the residual norm (Fan & Yuan 2005), the factor adapted by success.
+    Newton: line search by halving on the Euclidean norm. Where Jacobians are dear, a step with the
+    last one, updated from the steps since (Broyden 1965), is tried first and kept only if it cuts
+    the residual to a third; `first_jacobian` (N, N), of a neighbouring solution for instance, is
+    what the first such step takes. Levenberg-Marquardt: the parameter is a factor times the
+    residual norm (Fan & Yuan 2005), the factor adapted by success; it takes no `first_jacobian`.
 
     Returns:
         The solution, its residual (norm at most `tolerance`) and the iterations.
@@ -136,7 +141,9 @@ def solve(
     if method not in {"newton", "levenberg-marquardt"}:
         raise ArgumentError(f'method must be "newton" or "levenberg-marquardt", not "{method}".')
     point = _Point(u, equations.residual(u))
-    stepper = _Newton(equations) if method == "newton" else _LevenbergMarquardt(equations)
+    stepper: _Newton | _LevenbergMarquardt = _LevenbergMarquardt(equations)
+    if method == "newton":
+        stepper = _Newton(equations, first_jacobian)
     history: list[Iteration] = []
 
     def record(number: int, length: float, damping: float, reused: bool) -> None:
@@ -203,30 +210,66 @@ def _try(equations: Equations, u: FloatArray, below: float) -> _Point | None:
 
 
 class _Newton:
-    def __init__(self, equations: Equations) -> None:
+    def __init__(self, equations: Equations, first_jacobian: sp.csc_array | None) -> None:
         self._equations = equations
-        self._solve: Callable[[FloatArray], FloatArray] | None = None
+        self._broyden: _Broyden | None = None
+        if first_jacobian is not None and equations.dear_jacobian:
+            # One that is singular says nothing about the equations at hand.
+            with suppress(np.linalg.LinAlgError):
+                self._broyden = _Broyden(factorise(first_jacobian)[0])
 
     def advance(self, point: _Point) -> _Step | None:
-        if self._solve is not None:
-            u = point.u - self._solve(point.residual)
-            trial = _try(self._equations, u, _REUSE_DECREASE * point.norm)
-            if trial is not None:
-                return _Step(trial, 1.0, reused=True)
-        self._solve, condition = factorise(self._equations.jacobian(point.u))
-        direction = -self._solve(point.residual)
+        if self._broyden is not None:
+            step = self._broyden.step(point.residual)
+            if step is not None:
+                trial = _try(self._equations, point.u + step, _REUSE_DECREASE * point.norm)
+                if trial is not None:
+                    self._broyden.taken(step)
+                    return _Step(trial, 1.0, reused=True)
+            self._broyden = None
+        solved, condition = factorise(self._equations.jacobian(point.u))
+        direction = -solved(point.residual)
         damping = 1.0
         while damping >= _SHORTEST_DAMPING:
             below = (1 - _SUFFICIENT_DECREASE * damping) * point.norm
             trial = _try(self._equations, point.u + damping * direction, below)
             if trial is not None:
-                if damping < 1 or not self._equations.dear_jacobian:
-                    self._solve = None
+                if damping == 1 and self._equations.dear_jacobian:
+                    self._broyden = _Broyden(solved)
+                    self._broyden.taken(direction)
                 return _Step(trial, damping)
             damping /= 2
         if condition > _SUSPECT_CONDITION:
             raise np.linalg.LinAlgError
         return None
+
+
+class _Broyden:
+    """Quasi-Newton steps from one factorised Jacobian, updated by the full steps taken since.
+
+    The rank-one updates are applied to the steps themselves, which they are functions of, so that
+    nothing is factorised anew (Kelley 1995, section 7.3).
+    """
+
+    def __init__(self, solved: Callable[[FloatArray], FloatArray]) -> None:
+        self._solved = solved
+        self._steps: list[FloatArray] = []
+
+    def step(self, residual: FloatArray) -> FloatArray | None:
+        """The next step; `None` where the updated Jacobian is singular."""
+        step = -self._solved(residual)
+        # An overflow is no step either.
+        with np.errstate(all="ignore"):
+            for before, after in itertools.pairwise(self._steps):
+                step = step + after * (before @ step) / (before @ before)
+            if self._steps:
+                last = self._steps[-1]
+                step = step / (1 - (last @ step) / (last @ last))
+        return step if np.isfinite(step).all() else None
+
+    def taken(self, step: FloatArray) -> None:
+        """Learn from the residual that the next step is asked for at: this step led to it."""
+        self._steps.append(step)
 
 
 class _LevenbergMarquardt:

@@ -8,6 +8,7 @@ from typing import Literal, cast
 
 import numpy as np
 import numpy.typing as npt
+import scipy.sparse as sp
 
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
@@ -42,6 +43,7 @@ def find_limit_cycle(
     tolerance: float = 1e-9,
     max_iterations: int = 50,
     jacobian: Literal["auto", "variational", "finite-differences"] = "auto",
+    jacobian_guess: npt.ArrayLike | None = None,
     executor: Executor | None = None,
     callback: Callable[[Iteration], None] | None = None,
 ) -> LimitCycle:
@@ -63,6 +65,10 @@ def find_limit_cycle(
         max_iterations: accepted steps allowed.
         jacobian: "variational" where the model differentiates its flow, "finite-differences"
             (central), or "auto": the first where possible.
+        jacobian_guess: segment Jacobians (segments, n, n) of an orbit nearby, such as the
+            `segment_jacobians` of the one that the guess comes from. Newton's method tries its
+            first steps with them where it would have to find its own by differences; the
+            linearisation of the orbit that is found does not depend on them.
         executor: spreads flows over workers; results do not depend on it.
         callback: called with every `Iteration` as it is accepted, the guess first.
 
@@ -70,7 +76,8 @@ def find_limit_cycle(
         A `LimitCycle`, or the subclass that the model names as `limit_cycle_type`.
 
     Raises:
-        ArgumentError: a guess of the wrong shape, or a missing or superfluous period guess.
+        ArgumentError: a guess of the wrong shape or not finite, or a missing or superfluous period
+            guess.
         StateError: the flow fails at the guess.
         ConvergenceError: no orbit was found; it keeps the best point.
         SingularJacobianError: the equations have no unique solution where the search ended.
@@ -84,10 +91,7 @@ def find_limit_cycle(
         scale = typical_sizes(model, path)
         work = Segments(model, scale, start_time, jacobian_method, executor)
         equations = ShootingEquations(work, period, autonomous)
-        equations.residual(equations.pack(points, period))
-    except StateError as error:
-        raise StateError(f"The search cannot start from this guess: {error}") from error
-    try:
+        first = _first_jacobian(equations, points, period, jacobian_guess)
         u, residual, iterations = solve(
             equations,
             equations.pack(points, period),
@@ -95,7 +99,10 @@ def find_limit_cycle(
             tolerance=tolerance,
             max_iterations=max_iterations,
             callback=callback,
+            first_jacobian=first,
         )
+    except StateError as error:
+        raise StateError(f"The search cannot start from this guess: {error}") from error
     except ConvergenceError as error:
         if autonomous:
             best = error.history[-1]
@@ -106,8 +113,25 @@ def find_limit_cycle(
     if autonomous:
         _reject_equilibrium(work, points[0], period, closure, iterations)
     kind = model.limit_cycle_type if isinstance(model, HasLimitCycleType) else LimitCycle
-    found = linearise(equations, points, period, periodic_multipliers)
+    found = linearise(equations, points, period, periodic_multipliers, residual)
     return cast("LimitCycle", kind(**found, iterations=iterations))
+
+
+def _first_jacobian(
+    equations: ShootingEquations,
+    points: FloatArray,
+    period: float,
+    guess: npt.ArrayLike | None,
+) -> sp.csc_array | None:
+    if guess is None:
+        return None
+    factors, (m, n) = np.array(guess, float), points.shape
+    if factors.shape != (m, n, n) or not np.isfinite(factors).all():
+        raise ArgumentError(
+            f"jacobian_guess must hold finite values of shape ({m}, {n}, {n}), not of "
+            f"{factors.shape}."
+        )
+    return equations.assemble(points, period, factors) if equations.dear_jacobian else None
 
 
 def _period(model: Model, period_guess: float | None) -> tuple[bool, float]:

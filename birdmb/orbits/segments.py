@@ -30,9 +30,13 @@ JacobianMethod = Literal["variational", "finite-differences"]
 Result = TypeVar("Result")
 
 SAMPLES_PER_SEGMENT = 8
-# In units of the state scale: truncation 1e-10 balances a flow's round-off of 1e-15 over 1e-5.
-_STATE_STEP = 1e-5
+# In units of the state scale: truncation 4e-10 balances a flow's noise of 1e-14 over 2e-5.
+_STATE_STEP = 2e-5
 _TIME_STEP = 1e-5
+# Displacement over which the change of the Jacobians is observed, in units of the state scale.
+_PROBE = 1e-5
+# By how much the two estimates of a difference are further apart than the first is off.
+_OVERSTATED = 3.0
 
 
 def choose_jacobian(
@@ -127,6 +131,19 @@ def _not_finite(what: str, x0: FloatArray, t0: float, t1: float) -> str:
 
 
 @dataclass(frozen=True)
+class Correction:
+    """The way from a nearly closed orbit to where it closes, by the linearised flow.
+
+    Attributes:
+        length: in units of the state scale.
+        displaced: points (M, n) and period at any distance along that way, in the same units.
+    """
+
+    length: float
+    displaced: Callable[[float], tuple[FloatArray, float]]
+
+
+@dataclass(frozen=True)
 class Segments:
     """The work on the segments of one model: ends, velocities and Jacobians.
 
@@ -160,31 +177,75 @@ class Segments:
         if self.jacobian_method == "variational":
             t = self._times(points, period)
             return np.array(self._map(_flow_jacobian, points, t[:-1], t[1:]))
-        return self._differences(points, period, _STATE_STEP)
+        plus, minus, taken = self._both_sides(points, period, _STATE_STEP)
+        return np.swapaxes((plus - minus) / taken[:, :, None], 1, 2)
 
-    def jacobians_and_errors(
-        self, points: FloatArray, period: float
+    def jacobians_and_curvatures(
+        self, points: FloatArray, period: float, ends: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Segment flow Jacobians (M, n, n) and bounds (M, n, n) of the errors of their entries.
+        """Segment flow Jacobians (M, n, n), and what `refined` needs besides them.
 
-        Differences: Richardson extrapolation from steps h and 2h; the bound is the difference of
-        the two, at least its rms over the (scaled) column, plus the round-off of the flow over h.
-        It covers both regimes, truncation and noise. Variational: the accuracy that the model
-        declares (`flow_accuracy`), else round-off.
+        `ends` (M, n) are the ends of the segments. By differences, the second of the two is the
+        second derivative of the ends by each start state times the step taken, in the units of the
+        Jacobians; else it is zero.
         """
-        eps = float(np.finfo(float).eps)
         if self.jacobian_method == "variational":
             factors = self.jacobians(points, period)
+            return factors, np.zeros_like(factors)
+        plus, minus, taken = self._both_sides(points, period, _STATE_STEP)
+        factors = (plus - minus) / taken[:, :, None]
+        curvatures = 2 * (plus + minus - 2 * ends[:, None, :]) / taken[:, :, None]
+        return np.swapaxes(factors, 1, 2), np.swapaxes(curvatures, 1, 2)
+
+    def refined(
+        self,
+        points: FloatArray,
+        period: float,
+        factors: FloatArray,
+        curvatures: FloatArray,
+        correction: Correction,
+    ) -> tuple[FloatArray, FloatArray]:
+        """Better `factors` (M, n, n), and bounds (M, n, n) of the errors of their entries.
+
+        The bounds hold the error of an orbit that is not quite closed: `correction` leads to where
+        it closes, as far as the linearised flow tells.
+
+        Variational: the factors as they are, with the accuracy that the model declares
+        (`flow_accuracy`), else round-off, plus the change of the Jacobians over a displacement
+        along the correction, in proportion.
+
+        Differences: a second estimate by another formula at another place, one-sided differences
+        over twice the step less the curvatures, as far as three times the correction on the far
+        side. It is apart from the first one by three times the error that this has of its finite
+        step h (h^2/6 times a third derivative) less three times the change of the Jacobians up to
+        the closed orbit, and by the noise of the flow. A third of the distance is taken off the
+        first estimate, which leaves the Jacobians of the closed orbit to third order in h. The
+        bound is the whole distance, at least its rms over the (scaled) column, plus the round-off
+        of the flow over h. It costs n + 1 flows a segment.
+        """
+        eps = float(np.finfo(float).eps)
+        length = correction.length
+        if self.jacobian_method == "variational":
             accuracy = eps
             if isinstance(self.model, HasFlowAccuracy):
                 accuracy = max(eps, self.model.flow_accuracy)
-            return factors, accuracy * self._column_sizes(factors)
-        fine = self._differences(points, period, _STATE_STEP)
-        coarse = self._differences(points, period, 2 * _STATE_STEP)
-        difference = fine - coarse
+            bound = accuracy * self._column_sizes(factors)
+            if length > 0:
+                moved = self.jacobians(*correction.displaced(_PROBE))
+                bound = bound + np.abs(moved - factors) * (length / _PROBE)
+            return factors, bound
+        # An orbit that is far from closed is not left further behind, but seen in proportion.
+        reach = min(_OVERSTATED * length, _PROBE)
+        there, there_period = correction.displaced(-reach) if length > 0 else (points, period)
+        ahead, taken = self._ahead(there, there_period, 2 * _STATE_STEP)
+        second = (ahead - self.ends(there, there_period)[:, None, :]) / taken[:, :, None]
+        apart = np.swapaxes(second, 1, 2) - curvatures - factors
+        if reach < _PROBE:
+            factors = factors - apart / _OVERSTATED
+        else:
+            apart = apart * (length / _PROBE)
         round_off = eps / _STATE_STEP * np.divide.outer(self.scale, self.scale)
-        bound = np.maximum(np.abs(difference), self._column_sizes(difference)) + round_off
-        return fine + difference / 3, bound
+        return factors, np.maximum(np.abs(apart), self._column_sizes(apart)) + round_off
 
     def _column_sizes(self, factors: FloatArray) -> FloatArray:
         # rms over each column in scaled states, given back in the units of each entry
@@ -192,17 +253,33 @@ class Segments:
         rms = np.sqrt(np.mean((factors / units) ** 2, axis=1, keepdims=True))
         return np.asarray(rms * units)
 
-    def _differences(self, points: FloatArray, period: float, step: float) -> FloatArray:
-        m, n = points.shape
-        t = self._times(points, period)
+    def _both_sides(
+        self, points: FloatArray, period: float, step: float
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Ends (M, n, n) with start state j ahead and behind in row j, and their distances (M, n).
+
+        `step` is in units of the state scale.
+        """
         shifts = np.diag(step * self.scale)
         ahead, behind = points[:, None, :] + shifts, points[:, None, :] - shifts
-        starts = np.concatenate([ahead.reshape(-1, n), behind.reshape(-1, n)])
-        t0, t1 = (np.tile(np.repeat(side, n), 2) for side in (t[:-1], t[1:]))
-        plus, minus = np.array(self._map(_flow, starts, t0, t1)).reshape(2, m, n, n)
+        plus, minus = self._ends_of(np.array([ahead, behind]), period)
         # The steps as represented, not as wanted: x + h - x is not h.
-        taken = np.einsum("kjj->kj", ahead - behind)
-        return np.swapaxes((plus - minus) / taken[:, :, None], 1, 2)
+        return plus, minus, np.einsum("kjj->kj", ahead - behind)
+
+    def _ahead(
+        self, points: FloatArray, period: float, step: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """Ends (M, n, n) with start state j ahead in row j, and by how much (M, n)."""
+        ahead = points[:, None, :] + np.diag(step * self.scale)
+        taken = np.einsum("kjj->kj", ahead - points[:, None, :])
+        return self._ends_of(ahead[None], period)[0], taken
+
+    def _ends_of(self, starts: FloatArray, period: float) -> FloatArray:
+        """Ends of the segments from starts (..., M, n, n), n of them for each segment."""
+        sides, _, n, _ = starts.shape
+        t = self._times(starts[0], period)
+        t0, t1 = (np.tile(np.repeat(side, n), sides) for side in (t[:-1], t[1:]))
+        return np.array(self._map(_flow, starts.reshape(-1, n), t0, t1)).reshape(starts.shape)
 
     def _times(self, points: FloatArray, period: float) -> FloatArray:
         return np.linspace(self.start, self.start + period, len(points) + 1)

@@ -64,19 +64,31 @@ class ShootingEquations:
         scaled = (gaps / self.segments.scale).ravel()
         return np.append(scaled, 0.0) if self.autonomous else scaled
 
+    def ends_of(self, points: FloatArray, residual: FloatArray) -> FloatArray:
+        """Ends (M, n) of the segments from `points` (M, n) that leave this residual."""
+        gaps = residual[: points.size].reshape(points.shape) * self.segments.scale
+        return np.asarray(np.roll(points, -1, axis=0) + gaps)
+
     def jacobian(self, u: FloatArray) -> sp.csc_array:
         """Derivative of the residual."""
         points, period = self.unpack(u)
         return self.assemble(points, period, self.segments.jacobians(points, period))
 
-    def assemble(self, points: FloatArray, period: float, factors: FloatArray) -> sp.csc_array:
-        """Derivative of the residual from the segment Jacobians (M, n, n)."""
+    def assemble(
+        self,
+        points: FloatArray,
+        period: float,
+        factors: FloatArray,
+        ends: FloatArray | None = None,
+    ) -> sp.csc_array:
+        """Derivative of the residual from the segment Jacobians (M, n, n), and ends if known."""
         m, n = points.shape
         scale = self.segments.scale
         shift = sp.kron(np.roll(np.eye(m), 1, axis=1), sp.eye_array(n))
         matrix = sp.block_diag([f * np.divide.outer(1 / scale, 1 / scale) for f in factors]) - shift
         if self.autonomous:
-            ends = self.segments.ends(points, period)
+            if ends is None:
+                ends = self.segments.ends(points, period)
             stretch = self.segments.velocities(ends, period) * (self.period / m) / scale
             phase = (self.segments.velocities(points, period) / scale).ravel()
             phase /= np.linalg.norm(phase) or 1.0

@@ -118,3 +118,26 @@ def test_only_dear_jacobians_are_reused(rigid_orbit, compliant_orbit):
     assert len(rigid_orbit.iterations) <= 5
     assert not any(step.jacobian_reused for step in rigid_orbit.iterations)
     assert any(step.jacobian_reused for step in compliant_orbit.iterations)
+
+
+def monodromy_of_high_order(model, x0, step=1e-3):
+    """Differences of eighth order, over a step so long that the noise of the flow is nothing."""
+    weights = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
+    columns = []
+    for h in np.diag(step * model.state_scale):
+        ends = [
+            w * (model.flow(x0 + i * h, 0.0, model.period) - model.flow(x0 - i * h, 0.0, 0.25))
+            for i, w in weights.items()
+        ]
+        columns.append(sum(ends) / h.max())
+    return np.column_stack(columns)
+
+
+def test_error_bounds_cover_what_differences_leave(compliant):
+    orbit = find_limit_cycle(compliant, tolerance=1e-12)
+    exact = np.linalg.eigvals(monodromy_of_high_order(compliant, orbit.x0))
+    exact = exact[np.lexsort((-exact.imag, -np.abs(exact)))]
+    errors = np.abs(orbit.multipliers - exact)
+    assert (errors < orbit.multiplier_errors).all()
+    assert errors.max() < 2e-9
+    assert orbit.multiplier_errors.max() < 1e-7
