@@ -235,9 +235,12 @@ class FlightCycle(LimitCycle):
 
     @cached_property
     def integration_error(self) -> float:
-        """Error of the flow over a beat, in units of the state scale: against twice the steps."""
+        """Error of the flow over a beat, in units of the state scale: against twice the steps.
+
+        Of the same method: explicit steps against explicit ones, implicit against implicit.
+        """
         model = self._bird_model
-        finer = type(model)(model.bird, steps_per_beat=2 * model.steps_per_beat)
+        finer = model.with_steps(2 * model.steps_per_beat)
         end = self.start_time + self.period
         coarse, fine = (m.flow(self.x0, self.start_time, end) for m in (model, finer))
         return float(np.abs((coarse - fine) / self.state_scale).max())

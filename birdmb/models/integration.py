@@ -55,6 +55,8 @@ def integration_for(model: _Stiff, steps_wanted: int | None, integrator: Integra
     Explicit steps follow the fastest motion, a multiple of the default. Where that takes too many,
     the motion is stiff: implicit steps of the default number pass over it once it has died out.
     """
+    if steps_wanted is not None and integrator != "auto":
+        return Integration(integrator, steps_wanted)
     fastest = fastest_eigenvalue(model)
     needed = int(np.ceil(model.bird.period * fastest / _STEP_TIMES_EIGENVALUE))
     needed = STEPS_PER_BEAT * max(1, -(-needed // STEPS_PER_BEAT))

@@ -1,7 +1,7 @@
 """The multibody bird in Exudyn, its joints prescribed or compliant (docs/model.md, section 7)."""
 
-from functools import cached_property
-from typing import Any, NamedTuple
+from functools import cached_property, lru_cache
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -43,6 +43,12 @@ class Instant(NamedTuple):
     shape: WingShape | None  # with the joints that turn the wing as a whole at zero
 
 
+@lru_cache(maxsize=2)
+def _kept_instants(_key: tuple[object, ...]) -> dict[float, Instant]:
+    """The instants made so far, by time (s), of all models with the same wing and drivers."""
+    return {}
+
+
 class MultibodyModel(WingModel):
     """Body and both wings as one kinematic tree; prescribed joints follow their drivers exactly.
 
@@ -82,10 +88,15 @@ class MultibodyModel(WingModel):
         self._compliant = np.array([joint.mode == "compliant" for joint in bird.joints], dtype=bool)
         self._springs = Springs(bird)
         self.turning = self._joints_that_turn_the_wing_as_a_whole()
-        self._instants: dict[float, Instant] = {}
+        self._instants = _kept_instants(self._what_instants_depend_on())
 
     def _options(self) -> dict[str, Any]:
         return {**super()._options(), "integrator": self._integrator}
+
+    def with_steps(self, steps_per_beat: int) -> Self:
+        """The same model of the same bird, with as many steps per beat of the same method."""
+        options = {"steps_per_beat": steps_per_beat, "integrator": self.integration.method}
+        return type(self)(self.bird, **{**self._options(), **options})
 
     @cached_property
     def integration(self) -> Integration:
@@ -250,13 +261,19 @@ class MultibodyModel(WingModel):
     def instant(self, t: float) -> Instant:
         """What time t (s) alone determines.
 
-        Kept, for every trajectory and every perturbation of it asks for the same instants again.
+        Kept, for every trajectory and every perturbation of it asks for the same instants again, as
+        do birds that differ in masses, springs and dampers alone.
         """
-        if t not in self._instants:
+        instant = self._instants.get(t)
+        if instant is None:
             if len(self._instants) >= _INSTANTS_KEPT:
                 self._instants.clear()
-            self._instants[t] = self._make_instant(t)
-        return self._instants[t]
+            instant = self._instants[t] = self._make_instant(t)
+        return instant
+
+    def _what_instants_depend_on(self) -> tuple[object, ...]:
+        wing = (np.asarray(part) for part in self.wing)
+        return self.turning, self.discretisation, *((part.shape, part.tobytes()) for part in wing)
 
     def _make_instant(self, t: float) -> Instant:
         angles, rates, accelerations = driven(self.wing, t)

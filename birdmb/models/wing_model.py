@@ -2,7 +2,7 @@
 
 from abc import ABC, abstractmethod
 from functools import cached_property, partial
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -124,6 +124,10 @@ class WingModel(ABC):
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle as the call that makes the model: compiled tables are made again where needed."""
         return partial(type(self), self.bird, **self._options()), ()
+
+    def with_steps(self, steps_per_beat: int) -> Self:
+        """The same model of the same bird with another number of integration steps per beat."""
+        return type(self)(self.bird, **{**self._options(), "steps_per_beat": steps_per_beat})
 
     def _options(self) -> dict[str, Any]:
         return {"steps_per_beat": self._steps_wanted, "gust": self._gust}

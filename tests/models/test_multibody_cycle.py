@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import birdmb
+from birdmb.models import multibody as model_module
 from tests.models.test_rigid_cycle import sorted_like
 
 
@@ -163,3 +164,45 @@ def test_a_model_is_freed_when_nobody_needs_it(ibis, kind):
     gone = weakref.ref(model)
     del model
     assert gone() is None
+
+
+@pytest.mark.parametrize("method", ["explicit", "implicit"])
+def test_integration_error_is_that_of_the_method_that_was_named(
+    ibis_compliant, method, monkeypatch
+):
+    bird = ibis_compliant.with_values({"wing.discretisation": 4})
+    cycle = birdmb.find_limit_cycle(
+        birdmb.MultibodyModel(bird, steps_per_beat=40, integrator=method), tolerance=1e-7
+    )
+    used = []
+    flow = birdmb.MultibodyModel.flow
+
+    def seen(model, *arguments):
+        used.append(model.integration)
+        return flow(model, *arguments)
+
+    monkeypatch.setattr(birdmb.MultibodyModel, "flow", seen)
+    assert 1e-9 < cycle.integration_error < 1e-2
+    assert used == [(method, 40), (method, 80)]
+
+
+def test_birds_that_differ_in_springs_share_their_instants_and_no_result_depends_on_it(
+    ibis_compliant,
+):
+    bird = ibis_compliant.with_values({"wing.discretisation": 4})
+    model, softer, wider = (
+        birdmb.MultibodyModel(other, steps_per_beat=40)
+        for other in (
+            bird,
+            bird.with_values({"shoulder.flap.stiffness": 15, "segments.hand.mass": 0.02}),
+            bird.with_values({"shoulder.sweep.amplitude_deg": 21}),
+        )
+    )
+    assert model.instant(0.1) is softer.instant(0.1)
+    assert model.instant(0.1) is not wider.instant(0.1)
+    x = model.driven_state()
+    end = softer.flow(x, 0.0, 0.25)
+    model_module._kept_instants.cache_clear()
+    alone = birdmb.MultibodyModel(softer.bird, steps_per_beat=40)
+    assert alone.instant(0.1) is not softer.instant(0.1)
+    np.testing.assert_array_equal(alone.flow(x, 0.0, 0.25), end)
