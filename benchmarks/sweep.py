@@ -1,22 +1,27 @@
-"""How much faster two workers sweep than one: `python benchmarks/sweep.py [--coarse]`.
+"""What a point of a sweep costs, and how much faster two workers are than one.
 
-A sweep of 40 points of the bird with a compliant shoulder, with one worker and with two, start of
-the workers included; takes some minutes, with `--coarse` (8 elements a wing, 60 steps a beat) less
-than one. Needs a machine with nothing else to do.
+`python benchmarks/sweep.py [--coarse] [--point]`: flows and processor seconds of warm-started
+points of the bird with a compliant shoulder, one by one in this process; then, unless `--point` is
+given, a sweep of 40 points with one worker and with two, start of the workers included. Takes some
+minutes, with `--coarse` (8 elements a wing, 60 steps a beat) less than one. The sweep needs a
+machine with nothing else to do.
 """
 
 import os
 import sys
 import tempfile
 import time
+from concurrent.futures import Executor, Future
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from rich.console import Console
 from rich.table import Table
 
 import birdmb
+from birdmb.studies.sweeps.point import Outcome, Task
 
 COMPLIANT = Path(__file__).parent.parent / "topologies" / "ibis_compliant_shoulder.toml"
 VARY = {
@@ -25,12 +30,26 @@ VARY = {
 }
 
 
+# Apart as in a map of 20 x 20.
+ROW = {
+    "shoulder.flap.stiffness": [20.0],
+    "shoulder.flap.damping": np.linspace(0.2, 0.13, 8),
+}
+
+
+def prepared(
+    coarse: bool, kind: type[birdmb.MultibodyModel]
+) -> tuple[birdmb.Bird, partial[birdmb.MultibodyModel]]:
+    """The bird and what makes its model."""
+    bird = birdmb.load_bird(COMPLIANT)
+    if not coarse:
+        return bird, partial(kind)
+    return bird.with_values({"wing.discretisation": 8}), partial(kind, steps_per_beat=60)
+
+
 def timed(workers: int, coarse: bool, directory: Path) -> tuple[float, birdmb.Study]:
     """Wall-clock seconds of the sweep, and what it found."""
-    bird, model = birdmb.load_bird(COMPLIANT), partial(birdmb.MultibodyModel)
-    if coarse:
-        bird = bird.with_values({"wing.discretisation": 8})
-        model = partial(birdmb.MultibodyModel, steps_per_beat=60)
+    bird, model = prepared(coarse, birdmb.MultibodyModel)
     began = time.perf_counter()
     study = birdmb.sweep(
         bird, VARY, store=directory / f"{workers}.db", workers=workers, model=model
@@ -38,8 +57,56 @@ def timed(workers: int, coarse: bool, directory: Path) -> tuple[float, birdmb.St
     return time.perf_counter() - began, study
 
 
-def main(coarse: bool) -> None:
-    """Print the table."""
+class Counting(birdmb.MultibodyModel):
+    """The multibody model, counting its flows."""
+
+    flows = 0
+
+    def flow(self, *arguments: Any) -> np.ndarray:
+        """As the multibody model's."""
+        type(self).flows += 1
+        return super().flow(*arguments)
+
+
+class Timed(Executor):
+    """Computes points in this process and tells what each cost."""
+
+    def __init__(self) -> None:
+        """Nothing is known yet."""
+        self.costs: list[tuple[Task, Outcome, int, float]] = []
+
+    def submit(self, function: Any, task: Task, /) -> Future[Outcome]:
+        """Compute at once."""
+        flows, began = Counting.flows, time.process_time()
+        outcome = function(task)
+        seconds = time.process_time() - began
+        self.costs.append((task, outcome, Counting.flows - flows, seconds))
+        future: Future[Outcome] = Future()
+        future.set_result(outcome)
+        return future
+
+
+def points(coarse: bool, directory: Path) -> Table:
+    """Cost of each of a row of warm points."""
+    (bird, model), executor = prepared(coarse, Counting), Timed()
+    birdmb.sweep(bird, ROW, store=directory / "row.db", executor=executor, model=model)
+    table = Table("stiffness, damping", "flows", "processor time", "per flow")
+    warm = [cost for cost in executor.costs if cost[1].start != "cold"]
+    for task, _, flows, seconds in warm:
+        values = ", ".join(f"{value:g}" for value in task.values.values())
+        table.add_row(values, str(flows), f"{seconds:.2f} s", f"{1e3 * seconds / flows:.0f} ms")
+    flows, seconds = np.median([cost[2:] for cost in warm], axis=0)
+    table.add_row("median", f"{flows:.0f}", f"{seconds:.2f} s", "", style="bold")
+    return table
+
+
+def main(coarse: bool, point_only: bool) -> None:
+    """Print the tables."""
+    console = Console()
+    with tempfile.TemporaryDirectory() as directory:
+        console.print(points(coarse, Path(directory)))
+    if point_only:
+        return
     load = os.getloadavg()[0] if hasattr(os, "getloadavg") else float("nan")
     table = Table(
         "workers", "sweep", "speed-up", "busy", "warm point", "from", "cold point", "failed"
@@ -60,11 +127,10 @@ def main(coarse: bool) -> None:
             f"{np.median(cold):.2f} s",
             str(len(study.failures)),
         )
-    console = Console()
     console.print(table)
     same = runs[0][1].to_xarray().identical(runs[1][1].to_xarray())
     console.print(f"bitwise the same: {'yes' if same else 'NO'}; load when begun: {load:.1f}")
 
 
 if __name__ == "__main__":
-    main("--coarse" in sys.argv[1:])
+    main("--coarse" in sys.argv[1:], "--point" in sys.argv[1:])

@@ -26,7 +26,7 @@ class WarmCycles:
 
     def __init__(self, bird: Bird, model: ModelFactory) -> None:
         self._bird, self._model = bird, model
-        self._last: FloatArray | None = None
+        self._last: FlightCycle | None = None
 
     def __call__(self, values: Mapping[str, Any]) -> FlightCycle:
         """The limit cycle with these values by dotted name.
@@ -37,12 +37,15 @@ class WarmCycles:
             StateError: the search could not start, or the wing cannot be modelled.
         """
         model = self._model(self._bird.with_values(values))
-        if self._last is not None:
+        last = self._last
+        if last is not None and last.state_names == tuple(model.state_names):
             with suppress(OrbitError, StateError):
-                return self._kept(model, self._last)
-        return self._kept(model, None)
+                return self._kept(model, last.x0, last.segment_jacobians)
+        return self._kept(model, None, None)
 
-    def _kept(self, model: Model, guess: FloatArray | None) -> FlightCycle:
-        cycle = cast("FlightCycle", find_limit_cycle(model, guess))
-        self._last = cycle.x0
+    def _kept(
+        self, model: Model, guess: FloatArray | None, jacobians: FloatArray | None
+    ) -> FlightCycle:
+        cycle = cast("FlightCycle", find_limit_cycle(model, guess, jacobian_guess=jacobians))
+        self._last = cycle
         return cycle

@@ -20,6 +20,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import cast
 
 import numpy as np
@@ -120,17 +121,25 @@ class Validity:
             `span_fraction`.
         reduced_frequency: k = pi f c/U, with the mean chord (area by span, averaged over the beat)
             and the speed of the flight; that is omega c/(2 U), on half the chord.
-        strouhal_number: f A/U, with A the distance between the highest and the lowest place of the
-            wing tip relative to the body, along its z axis (Taylor, Nudds & Thomas 2003).
         largest_tail_angle: largest modulus of the tail's angle of attack, rad; NaN without a tail.
         excesses: where the limits are exceeded; none if the flight is within them.
+        cycle: the flight.
     """
 
     data: xr.Dataset
     reduced_frequency: float
-    strouhal_number: float
     largest_tail_angle: float
     excesses: tuple[Excess | TailExcess, ...]
+    cycle: FlightCycle
+
+    @cached_property
+    def strouhal_number(self) -> float:
+        """f A/U, with A the distance between the highest and the lowest place of the wing tip.
+
+        Relative to the body, along its z axis (Taylor, Nudds & Thomas 2003).
+        """
+        model = cast(WingModel, self.cycle.model)
+        return model.bird.gait.frequency * _tip_excursion(self.cycle, model) / self.cycle.mean_speed
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -186,9 +195,9 @@ def assess_validity(
     return Validity(
         data=data,
         reduced_frequency=float(k),
-        strouhal_number=frequency * _tip_excursion(cycle, model) / cycle.mean_speed,
         largest_tail_angle=float(tail_angle.max()),
         excesses=tuple(excesses),
+        cycle=cycle,
     )
 
 

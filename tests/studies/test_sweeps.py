@@ -93,6 +93,41 @@ def test_compliant_birds_have_the_same_bits_here_and_in_two_processes(ibis_compl
     assert here.to_xarray().identical(there.to_xarray())
 
 
+def test_warm_points_need_few_flows(ibis_compliant, tmp_path, monkeypatch):
+    """What a point costs: about seven steps, 12 flows for the Jacobian, 7 for its errors."""
+    bird = ibis_compliant.with_values({"wing.discretisation.elements": 4})
+    counts, flow = [], birdmb.MultibodyModel.flow
+
+    def counted(model, *arguments):
+        counts[-1] += 1
+        return flow(model, *arguments)
+
+    def begun(_point):
+        counts.append(0)
+
+    monkeypatch.setattr(birdmb.MultibodyModel, "flow", counted)
+    study = sweep(
+        bird,
+        {f"{FLAP}.stiffness": [30.0, 27.0, 24.0, 21.0]},
+        store=tmp_path / "s.db",
+        executor=Inline(),
+        model=partial(birdmb.MultibodyModel, steps_per_beat=60),
+        on_point=begun,
+    )
+    data = study.to_xarray()
+    assert (data.status == "found").all()
+    # Two flows are those of the error of the integration.
+    assert max(counts[1:4]) <= 1 + 8 + 12 + 7 + 2
+    for place in range(1, 4):
+        model = partial(birdmb.MultibodyModel, steps_per_beat=60)(
+            bird.with_joint("shoulder.flap", stiffness=float(data[f"{FLAP}.stiffness"][place]))
+        )
+        cold = birdmb.find_limit_cycle(model)
+        warm = data.isel({f"{FLAP}.stiffness": place})
+        np.testing.assert_allclose(warm.monodromy, cold.monodromy, atol=1e-6)
+        assert np.abs(warm.largest_modulus - np.abs(cold.multipliers[0])) < 1e-8
+
+
 def test_running_again_computes_what_is_missing(inline, tmp_path):
     class StopError(Exception):
         pass

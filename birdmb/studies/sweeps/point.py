@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass
 from typing import Any, cast
@@ -33,10 +33,12 @@ class Guess:
     Attributes:
         place: the neighbour's, as the store writes it.
         x0: its state at t = 0, by name.
+        monodromy: derivative (n, n) of its state after a beat with respect to x0.
     """
 
     place: str
     x0: Mapping[str, float]
+    monodromy: Sequence[Sequence[float]]
 
 
 @dataclass(frozen=True)
@@ -104,7 +106,10 @@ def _found(task: Task) -> tuple[FlightCycle, str]:
     if guess is not None and tuple(guess.x0) == model.state_names:
         with suppress(OrbitError, StateError):
             x0 = list(guess.x0.values())
-            return cast("FlightCycle", find_limit_cycle(model, x0, **search)), guess.place
+            # Of several segments only the product is kept.
+            known = [guess.monodromy] if task.search.segments == 1 else None
+            cycle = find_limit_cycle(model, x0, jacobian_guess=known, **search)
+            return cast("FlightCycle", cycle), guess.place
     return cast("FlightCycle", find_limit_cycle(model, **search)), COLD
 
 

@@ -153,7 +153,7 @@ class _Filling:
         while before is not None:
             result = self._points[before].result
             if result is not None:
-                return Guess(place_text(before), result["x0"])
+                return Guess(place_text(before), result["x0"], result["monodromy"])
             before = parent(before)
         return None
 
