@@ -93,10 +93,8 @@ class MultibodyModel(WingModel):
     def _options(self) -> dict[str, Any]:
         return {**super()._options(), "integrator": self._integrator}
 
-    def with_steps(self, steps_per_beat: int) -> Self:
-        """The same model of the same bird, with as many steps per beat of the same method."""
-        options = {"steps_per_beat": steps_per_beat, "integrator": self.integration.method}
-        return type(self)(self.bird, **{**self._options(), **options})
+    def _altered(self, **options: Any) -> Self:
+        return super()._altered(**{"integrator": self.integration.method, **options})
 
     @cached_property
     def integration(self) -> Integration:

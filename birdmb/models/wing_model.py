@@ -127,7 +127,14 @@ class WingModel(ABC):
 
     def with_steps(self, steps_per_beat: int) -> Self:
         """The same model of the same bird with another number of integration steps per beat."""
-        return type(self)(self.bird, **{**self._options(), "steps_per_beat": steps_per_beat})
+        return self._altered(steps_per_beat=steps_per_beat)
+
+    def in_gust(self, gust: Gust | None) -> Self:
+        """The same model, with the same integration, in other air; `None` is still air."""
+        return self._altered(steps_per_beat=self.steps_per_beat, gust=gust)
+
+    def _altered(self, **options: Any) -> Self:
+        return type(self)(self.bird, **{**self._options(), **options})
 
     def _options(self) -> dict[str, Any]:
         return {"steps_per_beat": self._steps_wanted, "gust": self._gust}

@@ -2,6 +2,8 @@
 
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.errors import TrimError
+from birdmb.studies.gust import gust_response
+from birdmb.studies.gust_figure import plot_gust_response
 from birdmb.studies.parameter_figures import plot_multiplier_locus, plot_performance
 from birdmb.studies.parameter_study import parameter_study
 from birdmb.studies.perturbed import flight_path, perturbed_flight
@@ -20,8 +22,10 @@ __all__ = [
     "Validity",
     "assess_validity",
     "flight_path",
+    "gust_response",
     "parameter_study",
     "perturbed_flight",
+    "plot_gust_response",
     "plot_multiplier_locus",
     "plot_performance",
     "plot_perturbed_flight",
