@@ -39,7 +39,7 @@ from .studies import (
     tunnel_and_free_flight,
 )
 from .studies.branch import bird_branch
-from .studies.sweeps import Study, SweepError, sweep
+from .studies.sweeps import Study, SweepError, Trimming, sweep
 from .topology import Bird, load_bird
 
 __all__ = [
@@ -67,6 +67,7 @@ __all__ = [
     "TopologyError",
     "Trim",
     "TrimError",
+    "Trimming",
     "Validity",
     "assess_validity",
     "bird_branch",

@@ -38,6 +38,21 @@ def sweep(
             "missing in it is computed.",
         ),
     ],
+    trim: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME=LOW:HIGH",
+            help="Trim the flight of every point by this value of the bird, within the bounds: to "
+            "level flight, or as --climb-rate and --speed say. Twice if a speed is wanted.",
+        ),
+    ] = None,
+    climb_rate: Annotated[
+        float, typer.Option(metavar="V", help="Climb rate to trim to, m/s.")
+    ] = 0.0,
+    speed: Annotated[
+        float | None,
+        typer.Option(metavar="V", help="Speed to trim to, m/s.", show_default="any"),
+    ] = None,
     workers: Annotated[
         int | None,
         typer.Option(
@@ -75,10 +90,11 @@ def sweep(
     """
     with reported():
         from birdmb.cli.birds import requested_bird  # noqa: PLC0415
-        from birdmb.cli.variations import requested_variations  # noqa: PLC0415
+        from birdmb.cli.variations import requested_trim, requested_variations  # noqa: PLC0415
 
         bird = requested_bird(topology, assignments or [])
         variations = requested_variations(bird, vary)
+        trimming = requested_trim(bird, trim or [], climb_rate, speed)
 
         from birdmb.cli.sweep import run  # noqa: PLC0415 - not before all of it is sound
 
@@ -89,6 +105,7 @@ def sweep(
             workers=workers,
             model=model.value,
             steps_per_beat=steps_per_beat,
+            trim=trimming,
             search={
                 "segments": segments,
                 "tolerance": tolerance,

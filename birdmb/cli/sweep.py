@@ -14,7 +14,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, SpinnerColumn, TextColumn
 
 from birdmb.models import MultibodyModel, RigidModel
-from birdmb.studies.sweeps import Finished, Study, sweep
+from birdmb.studies.sweeps import Finished, Study, Trimming, sweep
 from birdmb.topology import Bird
 
 _LISTED = 5
@@ -28,6 +28,7 @@ def run(
     workers: int | None,
     model: str,
     steps_per_beat: int | None,
+    trim: Trimming | None,
     search: Mapping[str, Any],
 ) -> None:
     """Fill the store, with progress on standard error, and say what it holds."""
@@ -40,6 +41,7 @@ def run(
             store=store,
             workers=workers,
             model=bound,
+            trim=trim,
             on_point=progress.update,
             **search,
         )

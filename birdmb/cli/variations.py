@@ -1,4 +1,4 @@
-"""What `--vary` asks for."""
+"""What `--vary` and `--trim` ask for."""
 
 import math
 from collections.abc import Sequence
@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from birdmb.cli.outcome import InputError
+from birdmb.studies.sweeps.settings import Trimming
 from birdmb.topology import Bird, parse_assignment
 
 _RANGE_PARTS = 3
@@ -29,6 +30,38 @@ def requested_variations(bird: Bird, texts: Sequence[str]) -> dict[str, list[Any
             raise InputError(f"--vary gives {name} twice; keep one of the two.")
         variations[name] = values
     return variations
+
+
+def requested_trim(
+    bird: Bird, texts: Sequence[str], climb_rate: float, speed: float | None
+) -> Trimming | None:
+    """What `--trim`, `--climb-rate` and `--speed` ask for; `None` without a `--trim`.
+
+    Raises:
+        TopologyError: the bird has no value of that name.
+        InputError: bounds are none, or there are not as many parameters as targets.
+    """
+    bounds = {}
+    for text in texts:
+        name, _, listed = text.partition("=")
+        bird.value(name.strip())
+        try:
+            low, high = map(float, listed.split(":"))
+        except ValueError:
+            low = high = math.nan
+        if not low < high:
+            raise InputError(
+                f'--trim "{text}" must read NAME=LOWEST:HIGHEST, as in '
+                "forearm.roll.offset_deg=-12:12."
+            )
+        bounds[name.strip()] = (low, high)
+    targets = 1 if speed is None else 2
+    if bounds and len(bounds) != targets:
+        wanted = "a climb rate" if targets == 1 else "a climb rate and a speed"
+        raise InputError(f"--trim to {wanted} needs {targets} parameter(s), not {len(bounds)}.")
+    if not bounds and speed is not None:
+        raise InputError("--speed needs two parameters to --trim the flight by.")
+    return Trimming(bounds, climb_rate, speed) if bounds else None
 
 
 def _list(name: str, listed: str) -> list[Any]:

@@ -143,6 +143,11 @@ class FlightCycle(LimitCycle):
         return float(self.mean_velocity[1])
 
     @property
+    def mean_pitch(self) -> float:
+        """Mean pitch angle, rad, nose up positive."""
+        return float(_mean(self._states_of_beat[1][:, 3]))
+
+    @property
     def path_angle(self) -> float:
         """Angle of the mean flight path above the horizon, rad."""
         return float(np.arctan2(self.mean_velocity[1], self.mean_velocity[0]))

@@ -14,6 +14,7 @@ from birdmb.aerodynamics.elements import place_elements
 from birdmb.aerodynamics.joints import joint_torques
 from birdmb.aerodynamics.prescribed import driven
 from birdmb.errors import StateError
+from birdmb.models.flight import Flight
 from birdmb.models.gusts import Gust
 from birdmb.models.loads import Loads, assemble_loads
 from birdmb.topology import Bird
@@ -75,6 +76,17 @@ class WingModel(ABC):
             return 0.0, 0.0
         horizontal, upwards = self._gust(t)
         return float(horizontal), -float(upwards)
+
+    @abstractmethod
+    def trajectory(
+        self, x0: npt.ArrayLike, t0: float, t1: float, times: npt.ArrayLike | None = None
+    ) -> Flight:
+        """The flight from x0 (n,) at t0 to t1 (s), at the integration's steps or at `times`."""
+
+    @property
+    @abstractmethod
+    def state_scale(self) -> FloatArray:
+        """Typical sizes of the states, (n,)."""
 
     def body_state(self, x: FloatArray) -> FloatArray:
         """The body's part u, w, q, theta (4,) of a state."""

@@ -6,7 +6,9 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from typing import Any, TypeAlias, cast
 
-from birdmb._typing import FloatArray
+import numpy as np
+import numpy.typing as npt
+
 from birdmb.errors import OrbitError, StateError
 from birdmb.models import FlightCycle
 from birdmb.orbits import Model, find_limit_cycle
@@ -22,11 +24,21 @@ class WarmCycles:
     Args:
         bird: the bird that is varied.
         model: makes the model of a variation.
+        options: what else `find_limit_cycle` takes.
     """
 
-    def __init__(self, bird: Bird, model: ModelFactory) -> None:
-        self._bird, self._model = bird, model
-        self._last: FlightCycle | None = None
+    def __init__(
+        self, bird: Bird, model: ModelFactory, options: Mapping[str, Any] | None = None
+    ) -> None:
+        self._bird, self._model, self._options = bird, model, dict(options or {})
+        self.start_from(None, None)
+
+    def start_from(self, x0: npt.ArrayLike | None, jacobians: npt.ArrayLike | None) -> None:
+        """Start the next one from a state x0 (n,), and from segment Jacobians (M, n, n) if given.
+
+        `None` for both: from the model's own guess.
+        """
+        self._x0, self._jacobians = x0, jacobians
 
     def __call__(self, values: Mapping[str, Any]) -> FlightCycle:
         """The limit cycle with these values by dotted name.
@@ -37,15 +49,16 @@ class WarmCycles:
             StateError: the search could not start, or the wing cannot be modelled.
         """
         model = self._model(self._bird.with_values(values))
-        last = self._last
-        if last is not None and last.state_names == tuple(model.state_names):
+        # A varied mode of a joint may have given the one before other states.
+        if self._x0 is not None and np.size(self._x0) == len(model.state_names):
             with suppress(OrbitError, StateError):
-                return self._kept(model, last.x0, last.segment_jacobians)
+                return self._kept(model, self._x0, self._jacobians)
         return self._kept(model, None, None)
 
     def _kept(
-        self, model: Model, guess: FloatArray | None, jacobians: FloatArray | None
+        self, model: Model, guess: npt.ArrayLike | None, jacobians: npt.ArrayLike | None
     ) -> FlightCycle:
-        cycle = cast("FlightCycle", find_limit_cycle(model, guess, jacobian_guess=jacobians))
-        self._last = cycle
+        found = find_limit_cycle(model, guess, jacobian_guess=jacobians, **self._options)
+        cycle = cast("FlightCycle", found)
+        self.start_from(cycle.x0, cycle.segment_jacobians)
         return cycle

@@ -54,7 +54,7 @@ def _deviation(axes: Axes, data: xr.Dataset, scale: float) -> None:
         if float(np.abs(mode["mode_deviation"]).max()) < 0.02 * largest:
             continue
         real, imag = float(mode["multiplier_real"]), float(mode["multiplier_imag"])
-        label = f"mode Λ = {real:.3f}" + (f" ± {imag:.3f} i" if imag else "")
+        label = f"mode Λ = {real:.3g}" + (f" ± {imag:.3g} i" if imag else "")
         colour = colours[(i + 1) % len(colours)]
         axes.plot(
             mode["time"],

@@ -6,8 +6,10 @@ from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from scipy.optimize import least_squares, root_scalar
 
 from birdmb._typing import FloatArray
@@ -19,10 +21,8 @@ from birdmb.studies.errors import TrimError
 from birdmb.studies.trim_search import Trimmed, TrimSearch
 from birdmb.topology import Bird
 
-_SECANTS = 10
 _STEPS = 25
 _GRID = 9
-_FIRST_STEP = 0.05  # of the distance between the bounds
 _DIFFERENCE = 1e-5  # of the distance between the bounds; cycles are known to about 1e-9
 
 
@@ -45,6 +45,19 @@ class Trim:
     cycles: int
 
 
+@dataclass(frozen=True)
+class TrimGuess:
+    """A trimmed flight of a similar bird, to start from.
+
+    Attributes:
+        values: of the parameters, by dotted name.
+        x0: its state (n,) at t = 0.
+    """
+
+    values: Mapping[str, float]
+    x0: npt.ArrayLike
+
+
 def trim_flight(
     bird: Bird,
     parameters: Mapping[str, tuple[float, float]],
@@ -53,13 +66,15 @@ def trim_flight(
     speed: float | None = None,
     model: ModelFactory = RigidModel,
     tolerance: float = 1e-7,
+    guess: TrimGuess | None = None,
+    search: Mapping[str, Any] | None = None,
 ) -> Trim:
     """Find the value of a parameter that gives a mean climb rate, or of two that also give a speed.
 
-    The search starts from the bird's own values, or from the middle where they are out of bounds.
-    One parameter: the secant method and, where that leaves the bounds or fails, Brent's method in
-    the sign change nearest to the start on a grid over the bounds. Two: bounded least squares
-    (trust region), a local method.
+    Newton's method on closure and targets together (`TrimEquations`), from the guess if there is
+    one, then from the bird's own values, or from the middle of the bounds where they are beyond
+    these. Where this fails without a guess: for one parameter Brent's method in the sign change
+    nearest to the start on a grid over the bounds, for two bounded least squares.
 
     Args:
         bird: the bird.
@@ -68,6 +83,8 @@ def trim_flight(
         speed: wanted mean speed (`FlightCycle.mean_speed`), m/s.
         model: makes the model of a bird, as `RigidModel` and `MultibodyModel` do.
         tolerance: largest difference from a target, m/s.
+        guess: a flight to start from, as that of a neighbour in a study.
+        search: what else `find_limit_cycle` takes for each of the cycles.
 
     Raises:
         ArgumentError: not as many parameters as targets, or bounds in the wrong order.
@@ -83,31 +100,36 @@ def trim_flight(
     for name, (low, high) in parameters.items():
         if not (np.isfinite([low, high]).all() and low < high):
             raise ArgumentError(f"the bounds of {name} must be ascending, not {low} and {high}.")
-    search = TrimSearch(bird, parameters, targets, model, tolerance)
+    trials = TrimSearch(bird, parameters, targets, model, tolerance, search or {})
     with suppress(Trimmed):
-        if speed is None:
-            _solve_one(search)
-        else:
-            _solve_two(search)
-    return _result(search)
+        if guess is not None:
+            point = np.array([guess.values[name] for name in trials.names])
+            _solve_together(trials, point, np.asarray(guess.x0, dtype=float))
+        _solve_together(trials, trials.start, None)
+        if guess is None and speed is None:
+            _solve_one(trials)
+        elif guess is None:
+            _solve_two(trials)
+    return _result(trials)
 
 
-class _OutsideError(Exception):
-    """The secant method left the bounds."""
+def _solve_together(search: TrimSearch, point: FloatArray, x0: FloatArray | None) -> None:
+    """Raise `Trimmed` if Newton's method finds a trim from this point and state.
+
+    The state by default: of the limit cycle there, or the model's guess where it has none.
+    """
+    with suppress(OrbitError, StateError):
+        found, x0 = search.equations.solve(point, search.state_at(point) if x0 is None else x0)
+        search.start_from(x0)
+        search.differences(found)
 
 
 def _solve_one(search: TrimSearch) -> None:
     low, high, start = float(search.low[0]), float(search.high[0]), float(search.start[0])
 
     def difference(value: float) -> float:
-        if not low <= value <= high:
-            raise _OutsideError
         return float(search.differences(np.array([value]))[0])
 
-    step = _FIRST_STEP * (high - low) * (1 if start < 0.5 * (low + high) else -1)
-    with suppress(_OutsideError, OrbitError, StateError):
-        if difference(start) != difference(start + step):
-            root_scalar(difference, method="secant", x0=start, x1=start + step, maxiter=_SECANTS)
     points: list[tuple[float, float]] = []
     for value in np.linspace(low, high, _GRID):
         with suppress(OrbitError, StateError):
@@ -151,4 +173,5 @@ def _result(search: TrimSearch) -> Trim:
     if not search.is_trimmed(best):
         raise TrimError(search.not_trimmed(best), values, best.reached)
     residual = float(np.abs(best.differences).max())
-    return Trim(search.bird.with_values(values), best.cycle, values, residual, len(search.found))
+    bird = search.bird.with_values(values)
+    return Trim(bird, best.cycle, values, residual, len(search.found))

@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, cast
 
 import numpy as np
 
 from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError, StateError
-from birdmb.models import FlightCycle
+from birdmb.models import FlightCycle, WingModel
+from birdmb.orbits.problem import HasInitialGuess
 from birdmb.studies.cycles import ModelFactory, WarmCycles
+from birdmb.studies.trim_equations import TrimEquations
 from birdmb.topology import Bird
 
 
@@ -38,16 +43,17 @@ class TrimSearch:
         targets: Mapping[str, float],
         model: ModelFactory,
         tolerance: float,
+        options: Mapping[str, Any],
     ) -> None:
-        self.bird, self._names, self._targets = bird, tuple(parameters), dict(targets)
-        self._tolerance = tolerance
+        self.bird, self.names, self._targets = bird, tuple(parameters), dict(targets)
+        self._tolerance, self._model = tolerance, model
         self.low, self.high = np.array(list(parameters.values()), dtype=float).T
-        own = np.array([_number(bird.value(name)) for name in self._names])
+        own = np.array([_number(bird.value(name)) for name in self.names])
         inside = (self.low <= own) & (own <= self.high)
         self.start = np.where(inside, own, 0.5 * (self.low + self.high))
         for bound in (self.low, self.high):  # bounds that no bird can have are told at once
             bird.with_values(self.named(bound))
-        self._cycle = WarmCycles(bird, model)
+        self._cycle = WarmCycles(bird, model, options)
         self.found: dict[tuple[float, ...], Trial] = {}
         self._failures: dict[tuple[float, ...], str] = {}
 
@@ -72,6 +78,30 @@ class TrimSearch:
                 raise Trimmed
         return self.found[key].differences
 
+    @cached_property
+    def equations(self) -> TrimEquations:
+        """Closure and targets as one system."""
+        return TrimEquations(self._model_at, self.low, self.high, self._targets)
+
+    def _model_at(self, point: FloatArray) -> WingModel:
+        return cast("WingModel", self._model(self.bird.with_values(self.named(point))))
+
+    def state_at(self, point: FloatArray) -> FloatArray:
+        """State (n,) of the limit cycle with these parameters, or the model's guess of it.
+
+        Raises:
+            Trimmed: it is trimmed already.
+            StateError: the model has no guess.
+        """
+        with suppress(OrbitError, StateError):
+            self.differences(point)
+            return self.found[tuple(point.tolist())].cycle.x0
+        return cast("HasInitialGuess", self._model_at(point)).initial_guess()
+
+    def start_from(self, x0: FloatArray) -> None:
+        """Start the search for the next limit cycle from a state (n,)."""
+        self._cycle.start_from(x0, None)
+
     @property
     def best(self) -> Trial | None:
         """The trial that misses the targets least."""
@@ -84,7 +114,7 @@ class TrimSearch:
 
     def named(self, point: FloatArray) -> dict[str, float]:
         """The parameters by dotted name."""
-        return {name: float(value) for name, value in zip(self._names, point, strict=True)}
+        return {name: float(value) for name, value in zip(self.names, point, strict=True)}
 
     def not_trimmed(self, best: Trial) -> str:
         """Say what was wanted, and what came closest."""
@@ -101,12 +131,12 @@ class TrimSearch:
     def _bounds(self) -> str:
         return " and ".join(
             f"{name} from {low:.6g} to {high:.6g}"
-            for name, low, high in zip(self._names, self.low, self.high, strict=True)
+            for name, low, high in zip(self.names, self.low, self.high, strict=True)
         )
 
     def _span(self) -> str:
         """What one parameter made of its target all over its bounds."""
-        if len(self._names) > 1:
+        if len(self.names) > 1 or len(self.found) == 1:
             return ""
         rates = [trial.reached["climb_rate"] for trial in self.found.values()]
         if max(rates) - min(rates) <= self._tolerance:

@@ -7,6 +7,7 @@ found, `figures` draws it.
 
 from birdmb.studies.sweeps.errors import SweepError
 from birdmb.studies.sweeps.run import Finished, sweep
+from birdmb.studies.sweeps.settings import Trimming
 from birdmb.studies.sweeps.study import Study
 
-__all__ = ["Finished", "Study", "SweepError", "sweep"]
+__all__ = ["Finished", "Study", "SweepError", "Trimming", "sweep"]

@@ -19,7 +19,8 @@ from birdmb.orbits import ArgumentError, find_limit_cycle
 from birdmb.orbits.problem import HasInitialGuess
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.sweeps.grid import Value
-from birdmb.studies.sweeps.settings import Search
+from birdmb.studies.sweeps.settings import Search, Trimming
+from birdmb.studies.trim import TrimGuess, trim_flight
 from birdmb.studies.validity import assess_validity
 from birdmb.topology import Bird
 
@@ -34,11 +35,13 @@ class Guess:
         place: the neighbour's, as the store writes it.
         x0: its state at t = 0, by name.
         monodromy: derivative (n, n) of its state after a beat with respect to x0.
+        trimmed: values of the parameters that it was trimmed by, by name, if it was.
     """
 
     place: str
     x0: Mapping[str, float]
     monodromy: Sequence[Sequence[float]]
+    trimmed: Mapping[str, float]
 
 
 @dataclass(frozen=True)
@@ -50,6 +53,7 @@ class Task:
     search: Search
     values: Mapping[str, Value]
     guess: Guess | None
+    trimming: Trimming | None = None
 
 
 @dataclass(frozen=True)
@@ -81,8 +85,11 @@ def compute(task: Task) -> Outcome:
     try:
         # How many threads share a sum decides its last bits.
         with threadpool_limits(1):
-            cycle, start = _found(task)
-            result = described(cycle)
+            if task.trimming is None:
+                cycle, start = _found(task)
+                result = described(cycle)
+            else:
+                result, start = _trimmed(task, task.trimming)
     except ArgumentError:
         raise
     except (BirdmbError, ArithmeticError, np.linalg.LinAlgError) as error:
@@ -113,20 +120,42 @@ def _found(task: Task) -> tuple[FlightCycle, str]:
     return cast("FlightCycle", find_limit_cycle(model, **search)), COLD
 
 
+def _trimmed(task: Task, trimming: Trimming) -> tuple[dict[str, Any], str]:
+    guess, near = task.guess, None
+    if guess is not None:
+        near = TrimGuess(guess.trimmed, list(guess.x0.values()))
+    trim = trim_flight(
+        task.bird.with_values(task.values),
+        trimming.parameters,
+        climb_rate=trimming.climb_rate,
+        speed=trimming.speed,
+        model=task.model,
+        tolerance=trimming.tolerance,
+        guess=near,
+        search=asdict(task.search),
+    )
+    result = described(trim.cycle) | {"trimmed": trim.values}
+    return result, COLD if guess is None else guess.place
+
+
 def described(cycle: FlightCycle) -> dict[str, Any]:
     """What is kept of a limit cycle, fit for JSON: units as in `FlightCycle`, `None` for NaN."""
     model = cast("WingModel", cycle.model)
+    validity = assess_validity(cycle)
     numbers = {
         "residual": cycle.residual,
         "integration_error": cycle.integration_error,
         "energy_imbalance": cycle.energy_imbalance,
         "mean_speed": cycle.mean_speed,
+        "mean_pitch": cycle.mean_pitch,
         "climb_rate": cycle.mean_climb_rate,
         "path_angle": cycle.path_angle,
         "power": cycle.power,
         "potential_power": cycle.potential_power,
         "corrected_power": cycle.corrected_power,
         "cost_of_transport": cycle.cost_of_transport,
+        **{f"lost_to_{name}": power for name, power in cycle.dissipation.items()},
+        "largest_tail_angle": validity.largest_tail_angle,
         "period": cycle.period,
         "iterations": len(cycle.iterations) - 1,
         "steps_per_beat": model.steps_per_beat,
@@ -140,5 +169,6 @@ def described(cycle: FlightCycle) -> dict[str, Any]:
         "monodromy": cycle.monodromy.tolist(),
         "stability": cycle.stability,
         "integrator": model.integration.method if isinstance(model, MultibodyModel) else "explicit",
-        "warning": " ".join(assess_validity(cycle).warnings),
+        "trimmed": {},
+        "warning": " ".join(validity.warnings),
     }

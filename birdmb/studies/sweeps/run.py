@@ -15,7 +15,7 @@ from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.sweeps.errors import SweepError
 from birdmb.studies.sweeps.grid import Grid, Place, Value, parent
 from birdmb.studies.sweeps.point import Guess, Outcome, Task, compute
-from birdmb.studies.sweeps.settings import Search, identity
+from birdmb.studies.sweeps.settings import Search, Trimming, identity
 from birdmb.studies.sweeps.store import Store, place_text
 from birdmb.studies.sweeps.study import Study
 from birdmb.studies.sweeps.workers import process_pool
@@ -47,6 +47,7 @@ def sweep(
     executor: Executor | None = None,
     workers: int | None = None,
     model: ModelFactory = MultibodyModel,
+    trim: Trimming | None = None,
     tolerance: float = 1e-9,
     max_iterations: int = 50,
     segments: int = 1,
@@ -73,6 +74,8 @@ def sweep(
         workers: number of those processes; by default one for each core.
         model: makes the model of a bird: `MultibodyModel`, `RigidModel`, `functools.partial` of
             them.
+        trim: trims the flight of every point, as to level flight, by parameters that are not
+            varied; without it, flights climb and sink as they do.
         tolerance, max_iterations, segments, method: of each search, as for `find_limit_cycle`.
         on_point: called after every point that has been stored, and once before the first of them.
 
@@ -84,8 +87,10 @@ def sweep(
     """
     grid = Grid.of(bird, vary)
     search = Search(tolerance, max_iterations, segments, method)
-    with Store.opened(store, identity(bird, model, search), grid) as opened:
-        filling = _Filling(bird, model, search, grid, opened, on_point)
+    for name in trim.parameters if trim else ():
+        bird.value(name)
+    with Store.opened(store, identity(bird, model, search, trim), grid) as opened:
+        filling = _Filling(bird, model, search, trim, grid, opened, on_point)
         if filling.missing:
             with nullcontext(executor) if executor else process_pool(workers, bird, model) as pool:
                 filling.run(pool)
@@ -100,11 +105,13 @@ class _Filling:
         bird: Bird,
         model: ModelFactory,
         search: Search,
+        trimming: Trimming | None,
         grid: Grid,
         store: Store,
         on_point: Callable[[Finished], None] | None,
     ) -> None:
-        self._bird, self._model, self._search = bird, model, search
+        self._bird, self._model = bird, model
+        self._search, self._trimming = search, trimming
         self._grid, self._store, self._on_point = grid, store, on_point
         self._points = dict(store.contents.points)
         self.missing = {place for place in grid.places() if place not in self._points}
@@ -146,14 +153,16 @@ class _Filling:
 
     def _task(self, place: Place) -> Task:
         values = self._grid.values(place)
-        return Task(self._bird, self._model, self._search, values, self._guess(place))
+        guess = self._guess(place)
+        return Task(self._bird, self._model, self._search, values, guess, self._trimming)
 
     def _guess(self, place: Place) -> Guess | None:
         before = parent(place)
         while before is not None:
             result = self._points[before].result
             if result is not None:
-                return Guess(place_text(before), result["x0"], result["monodromy"])
+                kept = (result[key] for key in ("x0", "monodromy", "trimmed"))
+                return Guess(place_text(before), *kept)
             before = parent(before)
         return None
 

@@ -26,7 +26,26 @@ class Search:
     method: SolverMethod
 
 
-def identity(bird: Bird, model: ModelFactory, search: Search) -> dict[str, Any]:
+@dataclass(frozen=True)
+class Trimming:
+    """How the flight of each point is trimmed; see `trim_flight`.
+
+    Attributes:
+        parameters: bounds by dotted name.
+        climb_rate: wanted, m/s.
+        speed: wanted, m/s, if two parameters are trimmed.
+        tolerance: largest difference from a target, m/s.
+    """
+
+    parameters: Mapping[str, tuple[float, float]]
+    climb_rate: float = 0.0
+    speed: float | None = None
+    tolerance: float = 1e-6
+
+
+def identity(
+    bird: Bird, model: ModelFactory, search: Search, trimming: Trimming | None
+) -> dict[str, Any]:
     """Everything that results depend on besides the grid, fit for JSON.
 
     The bird as it was written, for what was left to its default follows what is varied.
@@ -37,6 +56,7 @@ def identity(bird: Bird, model: ModelFactory, search: Search) -> dict[str, Any]:
         "bird": bird.model_dump(mode="json", exclude_unset=True),
         "model": model_name(model),
         "search": asdict(search),
+        "trim": None if trimming is None else asdict(trimming),
     }
 
 
@@ -63,10 +83,11 @@ def difference(stored: Mapping[str, Any], asked: Mapping[str, Any]) -> str | Non
 
     "There" is the store.
     """
-    if stored["birdmb"] != asked["birdmb"]:
-        return _apart("the version of birdmb", stored["birdmb"], asked["birdmb"])
-    if stored["model"] != asked["model"]:
-        return _apart("the model", stored["model"], asked["model"])
+    for key, what in (("birdmb", "the version of birdmb"), ("model", "the model")):
+        if stored[key] != asked[key]:
+            return _apart(what, stored[key], asked[key])
+    if stored["trim"] != asked["trim"]:
+        return _apart("the trim", stored["trim"] or "none", asked["trim"] or "none")
     for key, value in asked["search"].items():
         if stored["search"].get(key) != value:
             return _apart(f"{key} of the search", stored["search"].get(key), value)

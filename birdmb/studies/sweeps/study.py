@@ -22,11 +22,17 @@ from birdmb.topology import Bird
 _NUMBERS = {
     "mean_speed": ("m/s", "mean speed"),
     "climb_rate": ("m/s", "mean climb rate, upwards positive"),
+    "mean_pitch": ("rad", "mean pitch angle"),
     "path_angle": ("rad", "angle of the mean path above the horizon"),
     "power": ("W", "mean power to move the wings against the air"),
     "potential_power": ("W", "power drawn from sinking"),
     "corrected_power": ("W", "power as if level"),
     "cost_of_transport": ("1", "power / (weight x speed)"),
+    "lost_to_lift": ("W", "power lost to the lift's induced drag"),
+    "lost_to_profile": ("W", "power lost to the wings' profile drag"),
+    "lost_to_tail": ("W", "power lost to the tail's drag"),
+    "lost_to_body": ("W", "power lost to the body's drag"),
+    "largest_tail_angle": ("rad", "largest angle of attack of the tail"),
     "residual": ("1", "closure error of the orbit, in the units of the states"),
     "integration_error": ("1", "error of a beat's flow, in units of the state scale"),
     "energy_imbalance": ("1", "what a beat leaves over of the energy; a check"),
@@ -94,6 +100,10 @@ class Study:
         for name, (units, about) in _NUMBERS.items():
             data[name] = self._filled({p: r[name] for p, r in found.items()})
             data[name].attrs = {"units": units, "long_name": about}
+        for name in (self.identity["trim"] or {}).get("parameters", ()):
+            data[name] = self._filled({p: r["trimmed"][name] for p, r in found.items()})
+            in_degrees = {"units": "deg"} if name.endswith("_deg") else {}
+            data[name].attrs = {**in_degrees, "long_name": f"{name}, as trimmed"}
         for name in _BY_MULTIPLIER:
             rows = {p: _padded(r[name], len(states)) for p, r in found.items()}
             data[name] = self._filled(rows, multiplier=len(states))
