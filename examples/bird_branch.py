@@ -15,8 +15,7 @@ import numpy as np
 
 import birdmb
 from birdmb.orbits import Bifurcation, BranchPoint, Steps
-from birdmb.studies.branch import bird_branch
-from birdmb.studies.branch_figure import plot_bird_branch
+from birdmb.studies import bird_branch, plot_bird_branch
 
 IBIS = Path(__file__).parent.parent / "topologies" / "ibis_compliant_shoulder.toml"
 STIFFNESS = "shoulder.flap.stiffness"

@@ -5,7 +5,17 @@ from typing import Annotated
 
 import typer
 
-from birdmb.cli.options import Assignments, Method, ModelName, Topology
+from birdmb.cli.options import (
+    Assignments,
+    Json,
+    Method,
+    ModelChoice,
+    ModelName,
+    Segments,
+    StepsPerBeat,
+    Tolerance,
+    Topology,
+)
 from birdmb.cli.outcome import reported
 from birdmb.cli.study_commands import commands as study_commands
 
@@ -78,21 +88,9 @@ def cycle(
             help="Write the result (cycle.nc) and figures (PNG) into this directory.",
         ),
     ] = None,
-    json: Annotated[
-        bool, typer.Option("--json", help="Print one JSON object to standard output, no tables.")
-    ] = False,
-    segments: Annotated[
-        int,
-        typer.Option(
-            min=1, metavar="N", help="Shooting segments; more tame strongly unstable flights."
-        ),
-    ] = 1,
-    tolerance: Annotated[
-        float,
-        typer.Option(
-            metavar="X", help="Closure error accepted, in units of the states' typical sizes."
-        ),
-    ] = 1e-9,
+    json: Json = False,
+    segments: Segments = 1,
+    tolerance: Tolerance = 1e-9,
     max_iterations: Annotated[
         int, typer.Option(min=1, metavar="N", help="Iterations allowed.")
     ] = 50,
@@ -103,15 +101,7 @@ def cycle(
             help="newton, or levenberg-marquardt: takes longer, starts from further away.",
         ),
     ] = Method.NEWTON,
-    steps_per_beat: Annotated[
-        int | None,
-        typer.Option(
-            min=4,
-            metavar="N",
-            help="Integration steps per wingbeat.",
-            show_default="the model chooses",
-        ),
-    ] = None,
+    steps_per_beat: StepsPerBeat = None,
 ) -> None:
     """Find the limit cycle of a bird, its Floquet multipliers, speed and power.
 
@@ -182,9 +172,7 @@ def branch(
         float,
         typer.Option("--to", metavar="X", help="Which way it goes, and the end of the range."),
     ],
-    model: Annotated[
-        ModelName, typer.Option(metavar="MODEL", help="multibody or rigid, as for `birdmb cycle`.")
-    ] = ModelName.MULTIBODY,
+    model: ModelChoice = ModelName.MULTIBODY,
     assignments: Assignments = None,
     max_points: Annotated[
         int, typer.Option(min=2, metavar="N", help="Flights allowed, those resumed from included.")
@@ -204,16 +192,9 @@ def branch(
         Path | None,
         typer.Option(metavar="DIR", help="Write a picture (branch.png) into this directory."),
     ] = None,
-    json: Annotated[
-        bool, typer.Option("--json", help="Print one JSON object to standard output, no tables.")
-    ] = False,
-    segments: Annotated[int, typer.Option(min=1, metavar="N", help="Shooting segments.")] = 1,
-    tolerance: Annotated[
-        float,
-        typer.Option(
-            metavar="X", help="Closure error accepted, in units of the states' typical sizes."
-        ),
-    ] = 1e-9,
+    json: Json = False,
+    segments: Segments = 1,
+    tolerance: Tolerance = 1e-9,
     longest_step: Annotated[
         float,
         typer.Option(

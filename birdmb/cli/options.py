@@ -31,3 +31,30 @@ Assignments = Annotated[
         "shoulder.flap.stiffness=20, wing.discretisation=published. Repeatable.",
     ),
 ]
+ModelChoice = Annotated[
+    ModelName, typer.Option(metavar="MODEL", help="multibody or rigid, as for `birdmb cycle`.")
+]
+Segments = Annotated[
+    int,
+    typer.Option(
+        min=1, metavar="N", help="Shooting segments; more tame strongly unstable flights."
+    ),
+]
+Tolerance = Annotated[
+    float,
+    typer.Option(
+        metavar="X", help="Closure error accepted, in units of the states' typical sizes."
+    ),
+]
+StepsPerBeat = Annotated[
+    int | None,
+    typer.Option(
+        min=4,
+        metavar="N",
+        help="Integration steps per wingbeat.",
+        show_default="the model chooses",
+    ),
+]
+Json = Annotated[
+    bool, typer.Option("--json", help="Print one JSON object to standard output, no tables.")
+]

@@ -5,7 +5,15 @@ from typing import Annotated
 
 import typer
 
-from birdmb.cli.options import Assignments, ModelName, Topology
+from birdmb.cli.options import (
+    Assignments,
+    ModelChoice,
+    ModelName,
+    Segments,
+    StepsPerBeat,
+    Tolerance,
+    Topology,
+)
 from birdmb.cli.outcome import reported
 
 commands = typer.Typer()
@@ -59,29 +67,14 @@ def sweep(
             min=1, metavar="N", help="Processes that compute.", show_default="one for each core"
         ),
     ] = None,
-    model: Annotated[
-        ModelName, typer.Option(metavar="MODEL", help="multibody or rigid, as for `birdmb cycle`.")
-    ] = ModelName.MULTIBODY,
+    model: ModelChoice = ModelName.MULTIBODY,
     assignments: Assignments = None,
-    segments: Annotated[int, typer.Option(min=1, metavar="N", help="Shooting segments.")] = 1,
-    tolerance: Annotated[
-        float,
-        typer.Option(
-            metavar="X", help="Closure error accepted, in units of the states' typical sizes."
-        ),
-    ] = 1e-9,
+    segments: Segments = 1,
+    tolerance: Tolerance = 1e-9,
     max_iterations: Annotated[
         int, typer.Option(min=1, metavar="N", help="Iterations allowed at a point.")
     ] = 50,
-    steps_per_beat: Annotated[
-        int | None,
-        typer.Option(
-            min=4,
-            metavar="N",
-            help="Integration steps per wingbeat.",
-            show_default="the model chooses",
-        ),
-    ] = None,
+    steps_per_beat: StepsPerBeat = None,
 ) -> None:
     """Find the limit cycles over a grid of values, in parallel; a run that was stopped goes on.
 

@@ -1,5 +1,7 @@
 """Studies of a bird's flight: trim, parameter studies, validity, tunnel, disturbed flight."""
 
+from birdmb.studies.branch import bird_branch, flight_observables
+from birdmb.studies.branch_figure import plot_bird_branch
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.errors import TrimError
 from birdmb.studies.gust import gust_response
@@ -21,10 +23,13 @@ __all__ = [
     "TrimError",
     "Validity",
     "assess_validity",
+    "bird_branch",
+    "flight_observables",
     "flight_path",
     "gust_response",
     "parameter_study",
     "perturbed_flight",
+    "plot_bird_branch",
     "plot_gust_response",
     "plot_multiplier_locus",
     "plot_performance",

@@ -132,7 +132,7 @@ def bird_branch(
         max_points=max_points,
         max_bifurcations=max_bifurcations,
         tolerance=tolerance,
-        observables=_observables(bird),
+        observables=flight_observables(bird),
         resume=resume,
         store=store,
         settings=settings,
@@ -203,7 +203,11 @@ def _shown(value: str | float | None) -> str:
     return f"{value:g}" if isinstance(value, int | float) else str(value)
 
 
-def _observables(bird: Bird) -> dict[str, Callable[[LimitCycle], float]]:
+def flight_observables(bird: Bird) -> dict[str, Callable[[LimitCycle], float]]:
+    """What `bird_branch` records of each flight, for `continue_branch` along other families.
+
+    Functions of the limit cycle, in the units of `OBSERVABLE_UNITS`.
+    """
     found: dict[str, Callable[[FlightCycle], float]] = {
         "mean_speed": lambda cycle: cycle.mean_speed,
         "mean_climb_rate": lambda cycle: cycle.mean_climb_rate,
