@@ -254,7 +254,9 @@ def test_workers_that_die_end_the_sweep_with_a_sentence(tmp_path):
             future.set_exception(BrokenExecutor("died"))
             return future
 
-    assert "A worker process died" in refusal(tmp_path / "s.db", executor=Dying())
+    sentence = refusal(tmp_path / "s.db", executor=Dying())
+    assert "A worker process died" in sentence
+    assert f"under way or next were {AMPLITUDE} = 42.0, {MASS} = 1.2. Finished" in sentence
 
 
 def test_texts_are_values_too_and_states_may_come_and_go(ibis_compliant, tmp_path):

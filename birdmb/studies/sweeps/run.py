@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from contextlib import nullcontext
 from dataclasses import dataclass
@@ -20,6 +20,8 @@ from birdmb.studies.sweeps.store import Store, place_text
 from birdmb.studies.sweeps.study import Study
 from birdmb.studies.sweeps.workers import process_pool
 from birdmb.topology import Bird
+
+_NAMED = 4
 
 
 @dataclass(frozen=True)
@@ -143,13 +145,21 @@ class _Filling:
                     submit_after(place)
         except BrokenExecutor as error:
             raise SweepError(
-                "A worker process died, of too little memory perhaps, or because a script calls "
-                'sweep outside `if __name__ == "__main__":`; finished points are kept, run again '
-                "for the others."
+                f"A worker process died, of too little memory perhaps, or because a script calls "
+                f'sweep outside `if __name__ == "__main__":`; under way or next were '
+                f"{self._named(running.values())}. Finished points are kept, run again for the "
+                f"others."
             ) from error
         finally:
             for future in running:
                 future.cancel()
+
+    def _named(self, places: Iterable[Place]) -> str:
+        """The first of some points, which workers take in this order, for a sentence."""
+        points = [self._grid.values(place) for place in places]
+        texts = [", ".join(f"{k} = {v}" for k, v in p.items()) for p in points[:_NAMED]]
+        more = [f"{len(points) - _NAMED} others"] if len(points) > _NAMED else []
+        return "; ".join(texts + more)
 
     def _task(self, place: Place) -> Task:
         values = self._grid.values(place)
