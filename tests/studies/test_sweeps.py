@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 import birdmb
-from birdmb.studies.sweeps import Study, SweepError, sweep
+from birdmb.studies.sweeps import Study, SweepError, figures, sweep
 from birdmb.studies.sweeps.grid import Grid, parent
 
 from .sweeping import AMPLITUDE, GRID, IMPOSSIBLE, MASS, QUICK, Inline, coarse_bird
@@ -304,6 +304,19 @@ def test_maps_show_failures_and_quantities(inline):
     assert single.axes[0].get_xlabel() == "shoulder.flap.amplitude (°)"
     with pytest.raises(SweepError, match=r"No quantity is called speed; there are .*mean_speed"):
         inline.plot("speed")
+
+
+def test_maps_dot_flights_beyond_the_models_validity(inline):
+    data = inline.to_xarray(timings=True)
+    data["warning"][...] = ""
+    axes = figures.plot_study(data, "power", {}).axes[0]
+    assert not any(len(line.get_xdata()) for line in axes.lines)
+    data["warning"].loc[{AMPLITUDE: 40.0, MASS: 1.15}] = "beyond"
+    figure = figures.plot_study(data, "power", {})
+    (dots,) = figure.axes[0].lines
+    assert (list(dots.get_xdata()), list(dots.get_ydata())) == ([40.0], [1.15])
+    texts = [text.get_text() for legend in figure.legends for text in legend.get_texts()]
+    assert texts == ["no limit cycle found", "beyond the model's validity"]
 
 
 def test_lines_where_one_parameter_is_left(inline):

@@ -38,6 +38,7 @@ _TURNS = {
 }
 _DECADE = 10.0  # a wider range of time constants is drawn on a logarithmic scale
 _FAILED: dict[str, Any] = {"facecolor": "0.9", "edgecolor": "0.5", "hatch": "////", "linewidth": 0}
+_BEYOND: dict[str, Any] = {"ls": "", "marker": ".", "color": "k", "markersize": 4}
 
 
 def plot_study(study: xr.Dataset, quantity: str | None, at: Mapping[str, Any]) -> Figure:
@@ -165,6 +166,8 @@ def _draw_map(axes: Axes, study: xr.Dataset, name: str) -> None:
     for j, i in zip(*failed, strict=True):
         corner = (left[i], lower[j])
         axes.add_patch(Rectangle(corner, right[i] - left[i], upper[j] - lower[j], **_FAILED))
+    j, i = (study["warning"].transpose(up, across).values != "").nonzero()
+    axes.plot(x[i], y[j], **_BEYOND)
     axes.set_xlim(left[0], right[-1])
     axes.set_ylim(lower[0], upper[-1])
 
@@ -200,6 +203,8 @@ def _legend(study: xr.Dataset) -> list[Any]:
             )
         if (status == "failed").any():
             handles.append(Patch(label="no limit cycle found", **_FAILED))
+        if (study["warning"].values != "").any():
+            handles.append(Line2D([], [], label="beyond the model's validity", **_BEYOND))
         return handles
     for colour, shown, label in (
         (STABLE_COLOUR, modulus <= 1, "stable"),
