@@ -116,14 +116,25 @@ class Bird(Part):
         return tuple(joint for joint in self.joints if joint.mode == "compliant")
 
     @property
+    def hinged_feathers(self) -> tuple[Feather, ...]:
+        """The feathers on hinges, from the shoulder outwards."""
+        return tuple(feather for feather in self.feathers if feather.hinge)
+
+    @property
+    def angle_names(self) -> tuple[str, ...]:
+        """Names of all angles that place a wing: joints, then the hinges of feathers."""
+        return self.joint_names + tuple(feather.hinge_name for feather in self.hinged_feathers)
+
+    @property
     def period(self) -> float:
         """Duration of a wingbeat, s."""
         return 1 / self.gait.frequency
 
     @property
     def total_mass(self) -> float:
-        """Mass of the body and both wings, kg."""
+        """Mass of the body and both wings with their hinged feathers, kg."""
         one_wing = self.segments.humerus.mass + self.segments.forearm.mass + self.segments.hand.mass
+        one_wing += sum(feather.hinge.mass for feather in self.feathers if feather.hinge)
         return self.body.mass + 2 * one_wing
 
     def joint(self, name: str) -> Joint:

@@ -41,6 +41,7 @@ Tensor = tuple[Vector, Vector, Vector]
 Shares = tuple[tuple[str, float], ...]
 
 _ROUND_OFF = 1e-9  # relative; inertia tensors are often typed with few digits
+_ALONG_THE_BONE = 1e-6  # rad; a right angle in degrees is none to the last bit
 
 
 class Part(BaseModel):
@@ -280,6 +281,24 @@ def _pairs(shares: Any) -> Any:
     return shares if isinstance(shares, tuple) else tuple(_SHARES.validate_python(shares).items())
 
 
+class Hinge(Part):
+    """A spring and a damper about the bone's span axis, on which a feather is rooted.
+
+    The hinge's angle phi turns the whole feather, leading edge up (the tip down) positive. It has
+    no driver: its torque is -k (phi - phi_0) - C phi'.
+    """
+
+    angles: ClassVar[tuple[str, ...]] = ("rest",)
+
+    stiffness: NonNegative = Field(description="stiffness of the hinge, N m/rad")
+    damping: NonNegative = Field(description="damping of the hinge, N m s/rad")
+    mass: Positive = Field(description="mass of the feather, spread evenly along it, kg")
+    rest: Number = Field(
+        default=0.0,
+        description="angle at which the spring is slack, leading edge up; rad, degrees as rest_deg",
+    )
+
+
 class Feather(Part):
     """A straight feather rooted on a bone, following that bone and shares of joint angles."""
 
@@ -298,10 +317,28 @@ class Feather(Part):
     shares: Annotated[Shares, BeforeValidator(_pairs)] = Field(
         default=(), description="shares of joint angles, each under the joint's name in quotes"
     )
+    hinge: Hinge | None = Field(
+        default=None, description="hinge of the feather, a table; rooted firmly if left out"
+    )
 
     @field_serializer("shares")
     def _as_table(self, shares: Shares) -> dict[str, float]:
         return dict(shares)
+
+    @model_validator(mode="after")
+    def _hinge_can_turn_it(self) -> Self:
+        if self.hinge and not self.shares and abs(math.cos(self.rest_angle)) < _ALONG_THE_BONE:
+            raise problem(
+                f"a feather at {math.degrees(self.rest_angle):.6g} degrees points along its bone, "
+                "about which a hinge would turn it; it must be rooted firmly",
+                "hinge",
+            )
+        return self
+
+    @property
+    def hinge_name(self) -> str:
+        """Name of the hinge's angle among the states, and of its values."""
+        return f"feathers.{self.name}.hinge"
 
     @property
     def place(self) -> float:

@@ -48,6 +48,8 @@ def _walk(part: Part, prefix: str, place: Location) -> Iterator[tuple[str, Locat
             yield name, here
             yield from _walk(part.resolved_discretisation, f"{name}.", here)
         elif isinstance(child, Part):
+            if key == "hinge":  # may be taken off, or put on, as a whole
+                yield name, here
             yield from _walk(child, f"{name}.", here)
         elif key != "name" or not place:  # a joint or feather is not renamed: names lead to it
             yield name, here
@@ -72,10 +74,11 @@ def varied(bird: "Bird", values: Mapping[str, Any]) -> "Bird":
     """Return the bird with other values, validated as a whole; see `Bird.with_values`."""
     known = named_places(bird)
     resolved = any(map(_is_resolution, values))
-    if resolved and _RESOLUTION in values:
-        raise TopologyError(
-            f"{bird.name}: {_RESOLUTION} is set as a whole and in parts; keep one of the two"
-        )
+    for whole in values:
+        if any(name.startswith(f"{whole}.") for name in values):
+            raise TopologyError(
+                f"{bird.name}: {whole} is set as a whole and in parts; keep one of the two"
+            )
     document = _document(bird, resolved=resolved, as_written=True)
     changes = []
     for name, value in values.items():

@@ -118,6 +118,37 @@ def test_arrays_and_table_values(ibis):
     assert bird.value("feathers.3.shares.elbow.sweep") == 0.9
 
 
+HINGE = {"stiffness": 2.0, "damping": 0.002, "mass": 1.5e-3, "rest_deg": 3.0}
+
+
+def test_a_hinge_is_put_on_and_taken_off_as_a_whole_and_varied_in_parts(ibis):
+    assert ibis.value("feathers.5.hinge") is None
+    hinged = ibis.with_values({"feathers.5.hinge": HINGE})
+    assert hinged.hinged_feathers[0].hinge.rest == math.radians(3.0)
+    assert hinged.angle_names == (*ibis.joint_names, "feathers.5.hinge")
+    assert hinged.value("feathers.5.hinge.stiffness") == 2.0
+    assert hinged.value("feathers.5.hinge.rest_deg") == pytest.approx(3.0)
+    stiffer = hinged.with_values({"feathers.5.hinge.stiffness": 8, "feathers.5.hinge.rest": 0.0})
+    assert stiffer.value("feathers.5.hinge") == {
+        "stiffness": 8, "damping": 0.002, "mass": 1.5e-3, "rest": 0,
+    }  # fmt: skip
+    assert hinged.with_values({"feathers.5.hinge": None}) == ibis
+    assert len({bird.fingerprint() for bird in (ibis, hinged, stiffer)}) == 3
+
+
+def test_every_value_of_a_hinged_bird_put_back_changes_nothing(ibis):
+    hinged = ibis.with_values({"feathers.5.hinge": HINGE})
+    for name in hinged.value_names():
+        if name.startswith("feathers.5") and not name.endswith("_deg"):  # there and back rounds
+            assert hinged.with_values({name: hinged.value(name)}) == hinged
+    assert {f"feathers.5.hinge.{key}" for key in (*HINGE, "rest")} < set(hinged.value_names())
+
+
+def test_hinged_feathers_weigh_on_both_sides(ibis):
+    hinged = ibis.with_values({"feathers.5.hinge": HINGE, "feathers.3.hinge": HINGE})
+    assert hinged.total_mass == pytest.approx(ibis.total_mass + 4 * 1.5e-3)
+
+
 def test_axis_is_normalised(ibis):
     assert ibis.with_joint("wrist.sweep", axis=[0, 3, -4]).joint("wrist.sweep").axis == (
         0,
@@ -171,6 +202,38 @@ WRONG = {
             {"wing.discretisation": "published", "wing.discretisation.elements": 4}
         ),
         "ibis: wing.discretisation is set as a whole and in parts; keep one of the two",
+    ),
+    "whole hinge and part": (
+        lambda bird: bird.with_values({"feathers.5.hinge": HINGE, "feathers.5.hinge.stiffness": 1}),
+        "ibis: feathers.5.hinge is set as a whole and in parts; keep one of the two",
+    ),
+    "hinge without mass": (
+        lambda bird: bird.with_values({"feathers.5.hinge": {**HINGE, "mass": 0.0}}),
+        'ibis (with feathers.5.hinge = {"stiffness": 2.0, "damping": 0.002, "mass": 0.0, '
+        '"rest_deg": 3.0}): feathers.5.hinge.mass: must be more than 0, not 0.0 '
+        "(mass of the feather, spread evenly along it, kg)",
+    ),
+    "hinge incomplete": (
+        lambda bird: bird.with_values({"feathers.5.hinge": {"damping": 1, "mass": 1}}),
+        'ibis (with feathers.5.hinge = {"damping": 1, "mass": 1}): feathers.5.hinge.stiffness: '
+        "missing; it should give the stiffness of the hinge, N m/rad",
+    ),
+    "hinge misspelt": (
+        lambda bird: bird.with_values({"feathers.5.hinge": {**HINGE, "stifness": 1}}),
+        'ibis (with feathers.5.hinge = {"stiffness": 2.0, "damping": 0.002, "mass": 0.0015, '
+        '"rest_deg": 3.0, "stifne...): feathers.5.hinge.stifness: unknown key; '
+        "the nearest known: stiffness",
+    ),
+    "hinge no table": (
+        lambda bird: bird.with_values({"feathers.5.hinge": 3}),
+        "ibis (with feathers.5.hinge = 3): feathers.5.hinge: must be a table, not 3 "
+        "(hinge of the feather, a table; rooted firmly if left out)",
+    ),
+    "hinge along the feather": (
+        lambda bird: bird.with_values({"feathers.1.hinge": HINGE}),
+        'ibis (with feathers.1.hinge = {"stiffness": 2.0, "damping": 0.002, "mass": 0.0015, '
+        '"rest_deg": 3.0}): feathers.1.hinge: a feather at 90 degrees points along its bone, '
+        "about which a hinge would turn it; it must be rooted firmly",
     ),
     "degrees and radians": (
         lambda bird: bird.with_joint("wrist.sweep", offset=1, offset_deg=2),
