@@ -1,4 +1,4 @@
-"""Loads of the wing about its joints: each segment carries its elements' loads."""
+"""Loads of the wing about its joints and the hinges of its feathers."""
 
 import numpy as np
 from numba import njit
@@ -13,6 +13,8 @@ def joint_torques(
     wing: WingArrays, chain: Chain, position: FloatArray, force: FloatArray, beyond: FloatArray
 ) -> FloatArray:
     """Torques (J,) N m that the elements' loads exert about the joints of the right wing.
+
+    Each segment carries the loads of its elements.
 
     `position` (N, 3) m of the loads from G, `force` (N, 3) N, both in body axes; `beyond` (N, 2)
     the fractions carried beyond elbow and wrist.
@@ -30,4 +32,19 @@ def joint_torques(
     for j in range(torque.size):
         for i in range(3):
             torque[j] += chain.axis[j, i] * moment[wing.segment[j], i]
+    return torque
+
+
+@njit(cache=True)
+def hinge_torques(hinge_velocity: FloatArray, force: FloatArray) -> FloatArray:
+    """Torques (H,) N m that the elements' loads exert about the feathers' hinges, by virtual work.
+
+    `hinge_velocity` (H, N, 3) m are the elements' velocities per rate of each hinge, `force`
+    (N, 3) N their loads, both in body axes.
+    """
+    torque = np.zeros(hinge_velocity.shape[0])
+    for h in range(torque.size):
+        for e in range(force.shape[0]):
+            for i in range(3):
+                torque[h] += hinge_velocity[h, e, i] * force[e, i]
     return torque

@@ -31,7 +31,7 @@ class PrescribedWing(NamedTuple):
 
 @njit(cache=True)
 def driven(wing: WingArrays, t: float) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Driver angles (rad), rates and accelerations of all joints at time t (s)."""
+    """Driver angles (A,) rad, rates and accelerations of all joints and hinges at time t (s)."""
     argument = wing.angular_frequency * t + wing.phase
     swing = wing.amplitude * np.sin(argument)
     return (

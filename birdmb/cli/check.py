@@ -79,9 +79,10 @@ def _tail_and_drag(bird: Bird) -> list[tuple[str, str, str]]:
 
 def _span_and_area(bird: Bird) -> tuple[float, float]:
     """Span (m) and area (m2) of the wings stretched out, with the gap over the body."""
-    outline = wing_outline(
-        wing_arrays(bird), np.zeros(len(bird.joints)), bird.wing.resolved_discretisation
-    )
+    wing = wing_arrays(bird)
+    angles = wing.offset.copy()
+    angles[: len(bird.joints)] = 0.0
+    outline = wing_outline(wing, angles, bird.wing.resolved_discretisation)
     panels = outline.panels
     diagonals = np.cross(panels[:, 2] - panels[:, 0], panels[:, 3] - panels[:, 1])
     area = 2.0 * float(np.linalg.norm(diagonals, axis=1).sum() / 2.0)

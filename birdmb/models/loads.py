@@ -45,7 +45,7 @@ class Loads:
     power: float
     """W, that the wings' motion relative to the body takes: minus the sum of force . velocity."""
     joint_torques: FloatArray
-    """(J,) N m, of the air about each joint of the right wing, along the joint's axis."""
+    """(A,) N m, of the air about each joint and each feather's hinge of the right wing."""
     position: FloatArray
     """(N, 3) m, control points from G."""
     node: FloatArray

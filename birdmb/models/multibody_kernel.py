@@ -7,7 +7,7 @@ from birdmb._typing import FloatArray
 from birdmb.aerodynamics.airframe import Airframe, airframe_loads
 from birdmb.aerodynamics.circulation import element_loads, resultant
 from birdmb.aerodynamics.elements import place_elements
-from birdmb.aerodynamics.joints import joint_torques
+from birdmb.aerodynamics.joints import hinge_torques, joint_torques
 from birdmb.aerodynamics.tail import tail_influence
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.chain import frame_after, joint_chain
@@ -41,7 +41,7 @@ def air_forces(
     vz: float,
     pitch_rate: float,
 ) -> tuple[FloatArray, FloatArray]:
-    """Generalised forces of the air on body (3,) and on the joints (J,) of each wing.
+    """Generalised forces of the air on body (3,) and on joints and hinges (A,) of each wing.
 
     `shape` is the wing with its first `turning` joints at zero: they carry it as a whole, so their
     `angles` and `rates` turn it into body axes here. `vx`, `vz` (m/s, in the world) are the body's
@@ -51,10 +51,12 @@ def air_forces(
     spin = np.zeros(3)
     for j in range(turning):
         spin += rates[j] * chain.axis[j]
-    placed = place_elements(turned(shape, frame_after(wing, angles, turning), spin), wing.root)
+    shape = turned(shape, frame_after(wing, angles, turning), spin)
+    placed = place_elements(shape, wing.root)
     u, w = body_velocity(theta, vx, vz)
     loads = element_loads(placed, frame.density, frame.profile, u, w, pitch_rate)
-    torques = joint_torques(wing, chain, placed.position, loads.force, shape.beyond)
+    about_joints = joint_torques(wing, chain, placed.position, loads.force, shape.beyond)
+    torques = np.concatenate((about_joints, hinge_torques(shape.hinge_velocity, loads.force)))
     total = resultant(placed, loads.force)
     induced = np.zeros((2, 4))
     if frame.tail.span > 0.0:

@@ -11,7 +11,7 @@ from birdmb._typing import FloatArray
 from birdmb.aerodynamics.airframe import airframe
 from birdmb.aerodynamics.circulation import element_loads
 from birdmb.aerodynamics.elements import place_elements
-from birdmb.aerodynamics.joints import joint_torques
+from birdmb.aerodynamics.joints import hinge_torques, joint_torques
 from birdmb.aerodynamics.prescribed import driven
 from birdmb.errors import StateError
 from birdmb.models.flight import Flight
@@ -93,12 +93,12 @@ class WingModel(ABC):
         return x[:4]
 
     def joint_motion(self, t: float, _x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Angles (J,) rad and rates (J,) rad/s of the right wing's joints at time t (s)."""
+        """Angles (A,) rad and rates (A,) rad/s of the right wing's joints and hinges at t (s)."""
         angles, rates, _ = driven(self.wing, t)
         return angles, rates
 
     def actuator_torques(self, t: float, x: npt.ArrayLike) -> FloatArray:
-        """Torques (J,) N m that move the joints of one wing, at t (s) in state x (n,).
+        """Torques (A,) N m that move joints and hinges of one wing, at t (s) in state x (n,).
 
         Of massless wings: those that balance the air.
         """
@@ -124,13 +124,10 @@ class WingModel(ABC):
         motion = u - forward * c + down * s, w - forward * s - down * c, q
         frame = self.airframe
         found = element_loads(elements, frame.density, frame.profile, *motion)
-        torques = joint_torques(
-            self.wing,
-            joint_chain(self.wing, angles),
-            elements.position,
-            found.force,
-            shape.beyond,
-        )
+        chain = joint_chain(self.wing, angles)
+        about_joints = joint_torques(self.wing, chain, elements.position, found.force, shape.beyond)
+        about_hinges = hinge_torques(shape.hinge_velocity, found.force)
+        torques = np.concatenate([about_joints, about_hinges])
         return assemble_loads(elements, found, torques, frame, motion)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -159,7 +156,7 @@ def lifting_line_lost(bird: Bird, t: float, angles: FloatArray) -> StateError:
     """Say at which joint angles the lifting line could not be found."""
     listed = ", ".join(
         f"{name} {np.degrees(angle):.1f} deg"
-        for name, angle in zip(bird.joint_names, angles, strict=True)
+        for name, angle in zip(bird.angle_names, angles, strict=True)
     )
     return StateError(
         f"{bird.name}: no line orthogonal to its chords fits the wing at t = {t:.4f} s "

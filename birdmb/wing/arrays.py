@@ -9,7 +9,11 @@ from birdmb.topology import BONES, Bird
 
 
 class WingArrays(NamedTuple):
-    """The joint chain, bones and feathers of the right wing (SI, rad; J joints, F feathers)."""
+    """The joint chain, bones and feathers of the right wing (SI, rad; J joints, F feathers).
+
+    A wing is placed by A = J + H angles: those of the joints, then those of the H hinges of
+    feathers. The driver of a hinge is its rest angle, at all times.
+    """
 
     root: FloatArray  # (3,) shoulder joint from the body's centre of mass, body frame
     half_thickness: float
@@ -22,7 +26,8 @@ class WingArrays(NamedTuple):
     feather_length: FloatArray  # (F,)
     feather_rest_angle: FloatArray  # (F,) 0 aft, pi/2 outwards along the bone
     feather_share: FloatArray  # (F, J) of each joint's angle that the feather follows
-    offset: FloatArray  # (J,) drivers: offset + amplitude sin(2 pi f t + phase)
+    feather_hinge: IntArray  # (F,) which of the A angles turns the feather on its hinge, -1: none
+    offset: FloatArray  # (A,) drivers: offset + amplitude sin(2 pi f t + phase)
     amplitude: FloatArray
     phase: FloatArray
     angular_frequency: float
@@ -30,7 +35,9 @@ class WingArrays(NamedTuple):
 
 def wing_arrays(bird: Bird) -> WingArrays:
     """Arrays of a bird's right wing, in the order of its joint chain and feather list."""
-    joints, feathers = bird.joints, bird.feathers
+    joints, feathers, angles = bird.joints, bird.feathers, bird.angle_names
+    rest = [feather.hinge.rest for feather in feathers if feather.hinge]
+    still = [0.0] * len(rest)
     return WingArrays(
         root=np.array([bird.wing.root.x, bird.wing.root.y, bird.wing.root.z]),
         half_thickness=bird.wing.half_thickness,
@@ -43,8 +50,11 @@ def wing_arrays(bird: Bird) -> WingArrays:
         feather_length=np.array([f.length for f in feathers]),
         feather_rest_angle=np.array([f.rest_angle for f in feathers]),
         feather_share=np.array([bird.feather_shares(f) for f in feathers]).reshape(-1, len(joints)),
-        offset=np.array([joint.offset for joint in joints]),
-        amplitude=np.array([joint.amplitude for joint in joints]),
-        phase=np.array([joint.phase for joint in joints]),
+        feather_hinge=np.array(
+            [angles.index(f.hinge_name) if f.hinge else -1 for f in feathers], dtype=np.int64
+        ),
+        offset=np.array([joint.offset for joint in joints] + rest),
+        amplitude=np.array([joint.amplitude for joint in joints] + still),
+        phase=np.array([joint.phase for joint in joints] + still),
         angular_frequency=2.0 * np.pi * bird.gait.frequency,
     )

@@ -19,8 +19,8 @@ class Chain(NamedTuple):
 
 @njit(cache=True)
 def joint_chain(wing: WingArrays, angles: FloatArray) -> Chain:
-    """Axes of the joints and origins of the bones at joint `angles` (J,) rad."""
-    n = angles.size
+    """Axes of the joints and origins of the bones at `angles` (J,) rad; more are not read."""
+    n = wing.segment.size
     axis = np.empty((n, 3))
     origin = np.zeros((3, 3))
     R = np.eye(3)

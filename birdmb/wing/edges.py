@@ -3,6 +3,7 @@
 Frame: the right wing, body axes (x forward, y right, z down), origin at the shoulder joint. The
 kernels take complex angles as well: with q + i h q' (h tiny) the imaginary part of everything they
 return is h times its exact time derivative (complex step; Squire and Trapp, SIAM Rev. 40, 1998).
+Angles (A,) are those of the joints, then those of the feathers' hinges.
 """
 
 from typing import NamedTuple
@@ -12,8 +13,10 @@ from numba import njit
 
 from birdmb._typing import Array
 from birdmb.wing.arrays import WingArrays
-from birdmb.wing.rotations import rotate_about
+from birdmb.wing.rotations import rotate_about, turned_about
 
+# Small enough for its square to vanish beside 1, large enough to stay clear of denormal numbers.
+COMPLEX_STEP = 1e-30
 HUMERUS, FOREARM, HAND = 0, 1, 2
 
 
@@ -32,7 +35,7 @@ class Skeleton(NamedTuple):
 
 @njit(cache=True)
 def skeleton(wing: WingArrays, angles: Array) -> Skeleton:
-    """Place the bones for joint `angles` (J,) rad, real or complex."""
+    """Place the bones for `angles` (A,) rad, real or complex."""
     origin = np.zeros((4, 3), angles.dtype)
     rotation = np.zeros((3, 3, 3), angles.dtype)
     root_rotation = np.zeros((3, 3, 3), angles.dtype)
@@ -62,7 +65,7 @@ def _feather_root_aft(wing: WingArrays, bones: Skeleton, angles: Array, feather:
         R = bones.rotation[bone]
     else:
         R = bones.root_rotation[bone]
-        for j in range(angles.size):
+        for j in range(wing.segment.size):
             if wing.segment[j] == bone and wing.twist[j]:
                 R = rotate_about(R, wing.axis[j], position * angles[j])
     aft = -R[:, 0]
@@ -81,7 +84,7 @@ def trailing_edge(wing: WingArrays, bones: Skeleton, angles: Array) -> Array:
     for i in range(n):
         bone = wing.feather_bone[i]
         R = np.eye(3).astype(angles.dtype)
-        for j in range(angles.size):
+        for j in range(wing.segment.size):
             share = wing.feather_share[i, j]
             if share != 0.0:
                 R = rotate_about(R, wing.axis[j], share * angles[j])
@@ -90,6 +93,9 @@ def trailing_edge(wing: WingArrays, bones: Skeleton, angles: Array) -> Array:
             -np.cos(wing.feather_rest_angle[i]) * R[:, 0]
             + np.sin(wing.feather_rest_angle[i]) * R[:, 1]
         )
+        hinge = wing.feather_hinge[i]
+        if hinge >= 0:
+            direction = turned_about(bones.rotation[bone][:, 1], angles[hinge], direction)
         root = (
             bones.origin[bone]
             + wing.feather_position[i] * wing.bone_length[bone] * bones.rotation[bone][:, 1]
@@ -97,6 +103,13 @@ def trailing_edge(wing: WingArrays, bones: Skeleton, angles: Array) -> Array:
         )
         vertices[i] = root + wing.feather_length[i] * direction
     return vertices
+
+
+def feather_ends(wing: WingArrays, bones: Skeleton, angles: Array) -> tuple[Array, Array]:
+    """Roots and tips (F, 3) m of the feathers, from shoulder to wing tip."""
+    # A feather of no length ends at its root.
+    rootlets = wing._replace(feather_length=0.0 * wing.feather_length)
+    return trailing_edge(rootlets, bones, angles), trailing_edge(wing, bones, angles)
 
 
 @njit(cache=True)
@@ -133,7 +146,7 @@ def leading_edge(wing: WingArrays, bones: Skeleton, tip: Array) -> Array:
 
 @njit(cache=True)
 def wing_edges(wing: WingArrays, angles: Array) -> tuple[Array, Array]:
-    """Vertices of the leading (5, 3) and trailing (F, 3) edge, m, at joint `angles` (J,) rad."""
+    """Vertices of the leading (5, 3) and trailing (F, 3) edge, m, at `angles` (A,) rad."""
     bones = skeleton(wing, angles)
     trailing = trailing_edge(wing, bones, angles)
     return leading_edge(wing, bones, trailing[-1]), trailing

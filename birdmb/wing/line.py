@@ -39,6 +39,16 @@ class PairedEdges(NamedTuple):
     converged: bool
 
 
+class SolvedLine(NamedTuple):
+    """The rounded edges at an instant and the shifts that make the chords orthogonal."""
+
+    leading: RoundedPolyline
+    trailing: RoundedPolyline
+    station: FloatArray  # (n,) parameters of the stations
+    shift: FloatArray  # (n,)
+    converged: bool
+
+
 @njit(cache=True)
 def station_parameters(n: int) -> FloatArray:
     """Parameters in [0, 1] of n stations, crowded towards shoulder and tip like a cosine.
@@ -156,14 +166,10 @@ def _solve_shifts(
 
 
 @njit(cache=True)
-def orthogonal_line(
+def solved_line(
     leading_edge: ComplexArray, trailing_edge: ComplexArray, stations: int, rounding: float
-) -> PairedEdges:
-    """Pair the edges (vertices (m, 3) m) at `stations` stations, chords orthogonal to the line.
-
-    The imaginary parts of the vertices are taken for infinitesimal rates (complex step): the last
-    Newton step is repeated with them, which by the implicit function theorem is exact.
-    """
+) -> SolvedLine:
+    """Find the shifts that make the chords orthogonal; imaginary parts of the edges are ignored."""
     leading = rounded_polyline(leading_edge.real.copy(), rounding)
     trailing = rounded_polyline(trailing_edge.real.copy(), rounding)
     # On many stations Newton's method from zero may end on a line that doubles back on itself; a
@@ -179,7 +185,19 @@ def orthogonal_line(
         if n < stations:
             shift, _ = _solve_shifts(leading, trailing, s, shift, COARSE_TOLERANCE)
     shift, converged = _solve_shifts(leading, trailing, s, shift, SHIFT_TOLERANCE)
+    return SolvedLine(leading, trailing, s, shift, converged)
 
+
+@njit(cache=True)
+def moved_line(
+    line: SolvedLine, leading_edge: ComplexArray, trailing_edge: ComplexArray, rounding: float
+) -> PairedEdges:
+    """Pair the edges as `line` does, which was solved for their real parts.
+
+    The imaginary parts of the vertices are taken for infinitesimal rates (complex step): the last
+    Newton step is repeated with them, which by the implicit function theorem is exact.
+    """
+    leading, trailing, s, shift, converged = line
     A, B = _pair(leading, trailing, s, shift)
     moving_leading = rounded_polyline(leading_edge, rounding)
     moving_trailing = rounded_polyline(trailing_edge, rounding)
@@ -189,3 +207,15 @@ def orthogonal_line(
     moving_shift += 1j * _newton_step(leading, trailing, s, shift, A, B, residual_rate)
     moving_A, moving_B = _pair(moving_leading, moving_trailing, s, moving_shift)
     return PairedEdges(moving_A, moving_B, converged)
+
+
+@njit(cache=True)
+def orthogonal_line(
+    leading_edge: ComplexArray, trailing_edge: ComplexArray, stations: int, rounding: float
+) -> PairedEdges:
+    """Pair the edges (vertices (m, 3) m) at `stations` stations, chords orthogonal to the line.
+
+    Complex vertices carry rates, see `moved_line`.
+    """
+    line = solved_line(leading_edge, trailing_edge, stations, rounding)
+    return moved_line(line, leading_edge, trailing_edge, rounding)

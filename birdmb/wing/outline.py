@@ -8,7 +8,7 @@ import numpy as np
 from birdmb._typing import FloatArray
 from birdmb.topology import Discretisation
 from birdmb.wing.arrays import WingArrays
-from birdmb.wing.edges import leading_edge, skeleton, trailing_edge
+from birdmb.wing.edges import feather_ends, leading_edge, skeleton
 from birdmb.wing.line import orthogonal_line
 from birdmb.wing.one_step import one_step_line
 from birdmb.wing.rounded import point, rounded_polyline
@@ -52,13 +52,11 @@ class WingOutline:
 def wing_outline(
     wing: WingArrays, angles: FloatArray, discretisation: Discretisation
 ) -> WingOutline:
-    """Outline of the right wing at joint `angles` (J,) rad, discretised as the loads are."""
+    """Outline of the right wing at `angles` (A,) rad, discretised as the loads are."""
     # Complex as the model's own calls are (for rates, here none): no kernel is compiled twice.
     still = angles.astype(complex)
     bones = skeleton(wing, still)
-    tips = trailing_edge(wing, bones, still)
-    # A feather of no length ends at its root.
-    roots = trailing_edge(wing._replace(feather_length=0.0 * wing.feather_length), bones, still)
+    roots, tips = feather_ends(wing, bones, still)
     front = leading_edge(wing, bones, tips[-1])
     stations = 2 * discretisation.elements
     edges = front.real.copy(), tips.real.copy()

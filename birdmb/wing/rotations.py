@@ -29,3 +29,16 @@ def rotate_about(R: Array, axis: FloatArray, angle: complex) -> Array:
             for m in range(3):
                 out[i, j] += R[i, m] * Q[m, j]
     return out
+
+
+@njit(cache=True)
+def turned_about(axis: Array, angle: complex, v: Array) -> Array:
+    """The vector `v` (3,) turned by `angle` (rad) about the unit `axis` (3,), real or complex."""
+    c = np.cos(angle)
+    s = np.sin(angle)
+    along = (1.0 - c) * (axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2])
+    out = np.empty_like(v)
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        out[i] = c * v[i] + s * (axis[j] * v[k] - axis[k] * v[j]) + along * axis[i]
+    return out

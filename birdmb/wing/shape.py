@@ -12,13 +12,10 @@ from numba import njit
 
 from birdmb._typing import ComplexArray, FloatArray
 from birdmb.wing.arrays import WingArrays
-from birdmb.wing.edges import wing_edges
-from birdmb.wing.line import PairedEdges, orthogonal_line
-from birdmb.wing.one_step import one_step_line
+from birdmb.wing.edges import COMPLEX_STEP
+from birdmb.wing.hinges import one_step_wing, orthogonal_wing
+from birdmb.wing.line import PairedEdges
 from birdmb.wing.rounded import smooth_step
-
-# Small enough for its square to vanish beside 1, large enough to stay clear of denormal numbers.
-COMPLEX_STEP = 1e-30
 
 
 class WingShape(NamedTuple):
@@ -32,6 +29,7 @@ class WingShape(NamedTuple):
     chord: FloatArray  # (N,) m
     beyond: FloatArray  # (N, 2) fraction of the element's load carried beyond the elbow, the wrist
     converged: bool  # the lifting line was found to its tolerance
+    hinge_velocity: FloatArray  # (H, N, 3) m, of the control points per rate of each hinge
 
 
 @njit(cache=True)
@@ -89,23 +87,28 @@ def wing_shape(
     rounding: float,
     published: bool,
 ) -> WingShape:
-    """Shape and velocities of the right wing for joint `angles` (J,) rad and `rates` (J,) rad/s.
+    """Shape and velocities of the right wing for `angles` (A,) rad and `rates` (A,) rad/s.
 
-    Body axes; velocities relative to the body. `published` takes the reference program's line
-    instead of the orthogonal one.
+    Of the joints, then of the feathers' hinges. Body axes; velocities relative to the body.
+    `published` takes the reference program's line instead of the orthogonal one.
     """
-    leading, trailing = wing_edges(wing, angles + 1j * COMPLEX_STEP * rates)
+    moving = angles + 1j * COMPLEX_STEP * rates
     if published:
-        pairs, guide = one_step_line(leading, trailing, 2 * elements)
+        pairs, leading, guide, per_hinge = one_step_wing(wing, moving, 2 * elements)
     else:
-        pairs = orthogonal_line(leading, trailing, 2 * elements, rounding)
+        pairs, leading, per_hinge = orthogonal_wing(wing, moving, 2 * elements, rounding)
         guide = 0.75 * pairs.leading + 0.25 * pairs.trailing
-    return _assemble(pairs, guide, leading, rounding, published)
+    return _assemble(pairs, guide, leading, per_hinge, rounding, published)
 
 
 @njit(cache=True)
 def _assemble(
-    pairs: PairedEdges, guide: ComplexArray, edge: ComplexArray, rounding: float, published: bool
+    pairs: PairedEdges,
+    guide: ComplexArray,
+    edge: ComplexArray,
+    hinge_velocity: FloatArray,
+    rounding: float,
+    published: bool,
 ) -> WingShape:
     n = pairs.leading.shape[0] // 2
     along = guide.real.copy()
@@ -125,7 +128,15 @@ def _assemble(
     beyond = _carried_beyond(pairs.leading.real.copy(), edge.real.copy(), rounding)
     velocity = line[0::2].imag / COMPLEX_STEP
     return WingShape(
-        line.real.copy(), velocity, chord_direction, normal, span, chord, beyond, pairs.converged
+        line.real.copy(),
+        velocity,
+        chord_direction,
+        normal,
+        span,
+        chord,
+        beyond,
+        pairs.converged,
+        hinge_velocity,
     )
 
 
@@ -142,6 +153,9 @@ def turned(shape: WingShape, R: FloatArray, spin: FloatArray) -> WingShape:
         velocity[e, 0] += spin[1] * p[2] - spin[2] * p[1]
         velocity[e, 1] += spin[2] * p[0] - spin[0] * p[2]
         velocity[e, 2] += spin[0] * p[1] - spin[1] * p[0]
+    hinge_velocity = np.empty_like(shape.hinge_velocity)
+    for h in range(hinge_velocity.shape[0]):
+        hinge_velocity[h] = shape.hinge_velocity[h] @ R.T
     return WingShape(
         line,
         velocity,
@@ -151,4 +165,5 @@ def turned(shape: WingShape, R: FloatArray, spin: FloatArray) -> WingShape:
         shape.chord,
         shape.beyond,
         shape.converged,
+        hinge_velocity,
     )

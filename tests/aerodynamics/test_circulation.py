@@ -41,6 +41,7 @@ def flat_wing(chord_at, elements, semi_span=1.0, plunge=0.0):
         chord_at(y[0::2]),
         np.zeros((n, 2)),
         True,
+        np.zeros((0, n, 3)),
     )
 
 

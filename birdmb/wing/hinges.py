@@ -1,0 +1,67 @@
+"""The lifting line with feathers on hinges: also how fast each hinge moves it.
+
+A load on the line has the generalised force load . (velocity per rate of a hinge) on that hinge,
+by virtual work. These velocities are exact derivatives, by the complex step of the wing's edges.
+"""
+
+import numpy as np
+from numba import njit
+
+from birdmb._typing import Array, ComplexArray, FloatArray
+from birdmb.wing.arrays import WingArrays
+from birdmb.wing.edges import COMPLEX_STEP, wing_edges
+from birdmb.wing.line import PairedEdges, moved_line, solved_line
+from birdmb.wing.one_step import one_step_line
+
+
+@njit(cache=True)
+def orthogonal_wing(
+    wing: WingArrays, angles: ComplexArray, stations: int, rounding: float
+) -> tuple[PairedEdges, Array, FloatArray]:
+    """Orthogonal line of a wing at `angles` (A,) rad, whose imaginary parts carry rates.
+
+    Returns the paired edges, the leading edge's vertices (5, 3) m and the velocities (H, N, 3) m of
+    the N control points, every second station, per rate of each hinge.
+    """
+    leading, trailing = wing_edges(wing, angles)
+    line = solved_line(leading, trailing, stations, rounding)
+    pairs = moved_line(line, leading, trailing, rounding)
+    velocity = _no_velocity(wing, stations)
+    for h in range(velocity.shape[0]):
+        moving_leading, moving_trailing = wing_edges(wing, _one_hinge_moving(wing, angles, h))
+        velocity[h] = _control_velocity(moved_line(line, moving_leading, moving_trailing, rounding))
+    return pairs, leading, velocity
+
+
+@njit(cache=True)
+def one_step_wing(
+    wing: WingArrays, angles: ComplexArray, stations: int
+) -> tuple[PairedEdges, Array, Array, FloatArray]:
+    """As `orthogonal_wing` with the published line, whose own direction (stations, 3) comes third.
+
+    See `one_step_line` about that direction.
+    """
+    leading, trailing = wing_edges(wing, angles)
+    pairs, guide = one_step_line(leading, trailing, stations)
+    velocity = _no_velocity(wing, stations)
+    for h in range(velocity.shape[0]):
+        moving_leading, moving_trailing = wing_edges(wing, _one_hinge_moving(wing, angles, h))
+        velocity[h] = _control_velocity(one_step_line(moving_leading, moving_trailing, stations)[0])
+    return pairs, leading, guide, velocity
+
+
+@njit(cache=True)
+def _no_velocity(wing: WingArrays, stations: int) -> FloatArray:
+    return np.zeros((wing.offset.size - wing.segment.size, stations // 2, 3))
+
+
+@njit(cache=True)
+def _one_hinge_moving(wing: WingArrays, angles: ComplexArray, hinge: int) -> ComplexArray:
+    moving = angles.real.astype(np.complex128)
+    moving[wing.segment.size + hinge] += 1j * COMPLEX_STEP
+    return moving
+
+
+@njit(cache=True)
+def _control_velocity(pairs: PairedEdges) -> FloatArray:
+    return (0.75 * pairs.leading + 0.25 * pairs.trailing)[0::2].imag / COMPLEX_STEP
