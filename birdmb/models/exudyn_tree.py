@@ -1,10 +1,10 @@
 """The bird assembled in Exudyn: one kinematic tree of body and both wings.
 
 Coordinates: X (forward), Z (down), pitch angle, then the joints of the right wing in chain order
-and those of the left. Prescribed joints are held to their drivers by a driven inertia: a second
-object on the same node whose mass matrix is B on them alone and whose force is B times the driver's
-acceleration. No constraint is left, so Exudyn's explicit integrators apply, and a prescribed joint
-strays from its driver by no more than its loads over B.
+and the hinges of its feathers, then those of the left. Prescribed joints are held to their drivers
+by a driven inertia: a second object on the same node whose mass matrix is B on them alone and whose
+force is B times the driver's acceleration. No constraint is left, so Exudyn's explicit integrators
+apply, and a prescribed joint strays from its driver by no more than its loads over B.
 """
 
 import inspect
@@ -20,12 +20,14 @@ from scipy.spatial.transform import Rotation
 
 from birdmb._typing import BoolArray, FloatArray
 from birdmb.errors import BirdmbError
+from birdmb.models.feather_rods import FeatherRod, feather_rods
 from birdmb.topology import BONES, Bird
 
 BODY_COORDINATES = 3
 DRIVEN_INERTIA = 1e12
 _NEXT_TO_NO_MASS = 1e-30
 _MIRROR = np.diag([1.0, -1.0, 1.0])
+_SPAN = np.array([0.0, 1.0, 0.0])
 
 # (t, coordinates, velocities) -> generalised forces or accelerations, all (n,)
 CoordinateFunction = Callable[[float, FloatArray, FloatArray], FloatArray]
@@ -72,7 +74,7 @@ def _axis_frame(axis: FloatArray) -> FloatArray:
 
 
 def bird_links(bird: Bird) -> list[_Link]:
-    """Links of the tree: X, Z, pitch, right chain, left chain (body axes at zero coordinates)."""
+    """Links of the tree: X, Z, pitch, right wing, left wing (body axes at zero coordinates)."""
     pitch = _axis_frame(np.array([0.0, 1.0, 0.0]))
     links = [
         _Link(-1, exu.JointType.PrismaticX, np.zeros(3), np.eye(3)),
@@ -83,17 +85,24 @@ def bird_links(bird: Bird) -> list[_Link]:
     inertia = np.diag([0.0, bird.body.inertia_yy, 0.0])
     links[2].add_body(bird.body.mass, np.zeros(3), pitch.T @ inertia @ pitch)
     root = np.array([bird.wing.root.x, bird.wing.root.y, bird.wing.root.z])
+    rods = feather_rods(bird)
     for side in (np.eye(3), _MIRROR):
-        _add_wing(links, bird, side, side @ root, pitch)
+        _add_wing(links, bird, rods, side, side @ root, pitch)
     return links
 
 
 def _add_wing(
-    links: list[_Link], bird: Bird, side: FloatArray, root: FloatArray, body_frame: FloatArray
+    links: list[_Link],
+    bird: Bird,
+    rods: Sequence[FeatherRod],
+    side: FloatArray,
+    root: FloatArray,
+    body_frame: FloatArray,
 ) -> None:
     # Position and axes of the segment at hand, seen from the frame of the link that carries it.
     parent, place, axes = 2, body_frame.T @ root, body_frame.T
     handed = np.linalg.det(side)
+    hinges = []
     for bone in BONES:
         segment = getattr(bird.segments, bone)
         for joint in bird.joints:
@@ -106,9 +115,23 @@ def _add_wing(
         centre = place + axes @ side @ np.array(segment.centre_of_mass)
         inertia = axes @ side @ np.array(segment.inertia) @ side @ axes.T
         links[parent].add_body(segment.mass, centre, inertia)
+        for rod in rods:
+            if rod.bone == bone:
+                frame = _axis_frame(handed * side @ _SPAN)
+                hinge = _Link(
+                    parent, exu.JointType.RevoluteZ, place + axes @ side @ rod.root, axes @ frame
+                )
+                rod_axis = frame.T @ side @ rod.direction
+                hinge.add_body(
+                    rod.mass,
+                    0.5 * rod.length * rod_axis,
+                    _steiner(rod.mass, rod.length / np.sqrt(12.0) * rod_axis),
+                )
+                hinges.append(hinge)
         place = place + axes @ side @ np.array([0.0, segment.length, 0.0])
     # Exudyn divides by the mass that hangs on a link: one that carries none gives NaN.
     links[-1].mass = max(links[-1].mass, _NEXT_TO_NO_MASS)
+    links.extend(hinges)
 
 
 class ExudynBird:

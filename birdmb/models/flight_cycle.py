@@ -29,11 +29,11 @@ class Beat:
     loads: tuple[Loads, ...]
     """K entries."""
     joint_rates: FloatArray
-    """(K, J) rad/s."""
+    """(K, A) rad/s, of the joints and the feathers' hinges."""
     actuator_torques: FloatArray
-    """(K, J) N m, that the actuator, or spring and damper, puts on each joint of one wing."""
+    """(K, A) N m, that actuator, or spring and damper, put on each joint and hinge of one wing."""
     driver_rates: FloatArray
-    """(K, J) rad/s, of the joints' drivers."""
+    """(K, A) rad/s, of the joints' drivers; 0 of hinges."""
 
     @cached_property
     def force(self) -> FloatArray:
@@ -52,7 +52,7 @@ class Beat:
 
     @cached_property
     def joint_power(self) -> FloatArray:
-        """Power (K, J) W into each pair of joints, left and right together."""
+        """Power (K, A) W into each pair of joints or hinges, left and right together."""
         return 2.0 * self.actuator_torques * self.joint_rates
 
     @cached_property
@@ -215,7 +215,8 @@ class FlightCycle(LimitCycle):
         """Mean of joint torque times joint rate, W, by joint.
 
         The torque is that of the actuator where the joint is prescribed, of spring and damper where
-        it is compliant.
+        it is compliant. Hinges of feathers are listed after the joints: what they deliver is
+        negative, for their dampers take power out of the motion.
         """
         return self._by_joint(self.beat.joint_power)
 
@@ -223,13 +224,14 @@ class FlightCycle(LimitCycle):
     def driver_powers(self) -> dict[str, float]:
         """Mean power of the drivers, W, by joint: joint torque times the driver's rate.
 
-        Of a compliant joint it exceeds the joint's power by what the damper dissipates.
+        Of a compliant joint it exceeds the joint's power by what the damper dissipates; so does the
+        hinge's of a feather, whose driver stands still and delivers 0.
         """
         return self._by_joint(self.beat.driver_power)
 
     @property
     def feather_power(self) -> float:
-        """Part of `power` that no joint delivers, W.
+        """Part of `power` that no joint and no hinge delivers, W.
 
         The loads act on the bones, but the lifting line also moves relative to them, with the
         feathers that fan out; `power` counts that motion, torque times rate does not.
@@ -254,7 +256,7 @@ class FlightCycle(LimitCycle):
     def energy_imbalance(self) -> float:
         """What a beat leaves over of the energy, relative to the work done in it; 0 if exact.
 
-        Joints, air and gravity together must leave the kinetic energy as it was.
+        Joints, hinges, air and gravity together must leave the kinetic energy as it was.
         """
         model = self._bird_model
         joints = self.beat.joint_power.sum(axis=1)
@@ -264,13 +266,13 @@ class FlightCycle(LimitCycle):
         return float(np.abs(left_over) / _mean(exchanged))
 
     def _by_joint(self, values: FloatArray) -> dict[str, float]:
-        names = self._bird_model.bird.joint_names
+        names = self._bird_model.bird.angle_names
         return {n: float(v) for n, v in zip(names, _mean(values), strict=True)}
 
     def to_xarray(self) -> xr.Dataset:
         """The orbit as `LimitCycle.to_xarray` gives it, with loads and power over the beat."""
         beat = self.beat
-        axes, joints = ["x", "y", "z"], list(self._bird_model.bird.joint_names)
+        axes, joints = ["x", "y", "z"], list(self._bird_model.bird.angle_names)
         vectors = {
             "position": ("m", "control points of the right wing from G"),
             "element_force": ("N", "force on each element of the right wing"),

@@ -37,8 +37,8 @@ _BEATS_TO_SETTLE = 6
 class Instant(NamedTuple):
     """What an instant alone determines."""
 
-    angles: FloatArray  # (J,) rad, of the drivers
-    rates: FloatArray  # (J,) rad/s
+    angles: FloatArray  # (A,) rad, of the drivers
+    rates: FloatArray  # (A,) rad/s
     accelerations: FloatArray  # (n,) of the drivers, 0 for the body
     shape: WingShape | None  # with the joints that turn the wing as a whole at zero
 
@@ -53,8 +53,10 @@ class MultibodyModel(WingModel):
     """Body and both wings as one kinematic tree; prescribed joints follow their drivers exactly.
 
     The states are the body's four, then angle (rad) and rate (rad/s) of each compliant joint, named
-    `shoulder.flap` and `shoulder.flap.rate`. Left and right wing move as mirror images. The point
-    whose velocity is `u`, `w` is the centre of mass of the body without its wings.
+    `shoulder.flap` and `shoulder.flap.rate`, and of each feather's hinge, named `feathers.5.hinge`
+    and `feathers.5.hinge.rate`; a hinge is moved like a joint whose driver stands still. Left and
+    right wing move as mirror images. The point whose velocity is `u`, `w` is the centre of mass of
+    the body without its wings.
 
     Integrated with fixed steps, for shooting needs a flow that is smooth in its start: by Exudyn's
     explicit RK67 (order 6) with as many steps as the fastest motion of the joints needs, or, where
@@ -81,11 +83,13 @@ class MultibodyModel(WingModel):
     ) -> None:
         super().__init__(bird, steps_per_beat=steps_per_beat, gust=gust)
         self._integrator: Integrator = integrator
-        names = [joint.name for joint in bird.compliant_joints]
+        hinges = [feather.hinge_name for feather in bird.hinged_feathers]
+        names = [joint.name for joint in bird.compliant_joints] + hinges
         free = self._body_states
         self.state_names = BODY_STATES[:free] + tuple(n for j in names for n in (j, f"{j}.rate"))
         self.state_units = BODY_UNITS[:free] + ("rad", "rad/s") * len(names)
-        self._compliant = np.array([joint.mode == "compliant" for joint in bird.joints], dtype=bool)
+        compliant = [joint.mode == "compliant" for joint in bird.joints]
+        self._compliant = np.array(compliant + [True] * len(hinges), dtype=bool)
         self._springs = Springs(bird)
         self.turning = self._joints_that_turn_the_wing_as_a_whole()
         self._instants = _kept_instants(self._what_instants_depend_on())
@@ -120,7 +124,7 @@ class MultibodyModel(WingModel):
         return np.array(BODY_SCALE[: self._body_states] + _JOINT_SCALE * joints)
 
     def joint_motion(self, t: float, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Angles (J,) rad and rates (J,) rad/s of the right wing's joints at t (s) in state x."""
+        """Angles (A,) rad, rates (A,) rad/s of the right wing's joints and hinges in state x."""
         angles, rates, _ = driven(self.wing, t)
         angles[self._compliant] = x[self._body_states :: 2]
         rates[self._compliant] = x[self._body_states + 1 :: 2]
@@ -170,8 +174,9 @@ class MultibodyModel(WingModel):
     def accelerations(self, t: float, x: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Accelerations (n,) of all coordinates and the actuators' forces (n,) on them.
 
-        Coordinates X, Z (m), pitch (rad), right and left joints (rad). The forces (N, N m) are
-        those that hold the prescribed joints to their drivers, without springs and dampers.
+        Coordinates X, Z (m), pitch (rad), right and left joints and hinges (rad). The forces (N,
+        N m) are those that hold the prescribed joints to their drivers, without springs and
+        dampers.
         """
         q, v = self.coordinates(t, np.asarray(x, dtype=float))
         mass, left = self._exudyn.mass_and_forces(t, q, v)
@@ -184,7 +189,7 @@ class MultibodyModel(WingModel):
         return a, forces
 
     def actuator_torques(self, t: float, x: npt.ArrayLike) -> FloatArray:
-        """Torques (J,) N m that move the joints of one wing, at t (s) in state x (n,).
+        """Torques (A,) N m that move joints and hinges of one wing, at t (s) in state x (n,).
 
         Of the actuators that hold prescribed joints to their drivers, inertia included; of spring
         and damper where a joint is compliant.
@@ -249,7 +254,7 @@ class MultibodyModel(WingModel):
         """How many joints at the shoulder only turn a shape that the other joints determine.
 
         Zero, so that the shape must be computed for every state, if a compliant joint sits further
-        out, or if a feather follows a shoulder joint by another share than fully.
+        out or a feather is hinged, or if one follows a shoulder joint by another share than fully.
         """
         shoulder = int(np.count_nonzero(self.wing.segment == 0))
         if self._compliant[shoulder:].any() or (self.wing.feather_share[:, :shoulder] != 1.0).any():

@@ -58,6 +58,35 @@ class Body:
     path: list
 
 
+def at_offsets(joints, twist=True):
+    """Rotation from the body through these joints, each at its driver's offset."""
+    R = Rotation.identity()
+    for joint in joints:
+        if twist or not joint.twist:
+            R = R * Rotation.from_rotvec(joint.offset * np.array(joint.axis))
+    return R
+
+
+def rod(bird, feather):
+    """Root and direction (3,) of a feather in its bone's frame, drivers at their offsets."""
+    bones = ("humerus", "forearm", "hand")
+    number = bones.index(feather.bone)
+    chains = [[j for j in bird.joints if bones.index(j.segment) <= i] for i in range(3)]
+    R = at_offsets(chains[number])
+    aft = np.array([-1.0, 0.0, 0.0])
+    aft_at_root = aft
+    if feather.position == 1.0 and number < 2:
+        own = [j for j in chains[number + 1] if j.segment == bones[number + 1]]
+        aft_at_root = (aft + at_offsets(own, twist=False).apply(aft)) / 2
+    root = np.array([0.0, feather.position * getattr(bird.segments, feather.bone).length, 0.0])
+    root += bird.wing.half_thickness * aft_at_root
+    followed = Rotation.identity()
+    for joint, share in zip(bird.joints, bird.feather_shares(feather), strict=True):
+        followed = followed * Rotation.from_rotvec(share * joint.offset * np.array(joint.axis))
+    outwards = Rotation.from_rotvec(feather.rest_angle * np.array([0.0, 0.0, -1.0]))
+    return root, R.inv().apply(followed.apply(outwards.apply(aft)))
+
+
 def walk(bird, q, v, a):
     """All bodies, and for each rotational coordinate its axis and a point on it, in the world."""
     y = np.array([0.0, 1.0, 0.0])
@@ -67,8 +96,8 @@ def walk(bird, q, v, a):
     axes = {2: (y, start.origin)}
     bodies = [Body(bird.body.mass, np.diag([0.0, bird.body.inertia_yy, 0.0]), trunk, [2])]
     root = np.array([bird.wing.root.x, bird.wing.root.y, bird.wing.root.z])
-    joints = len(bird.joints)
-    for side, first in ((np.eye(3), 3), (MIRROR, 3 + joints)):
+    joints, angles = len(bird.joints), len(bird.angle_names)
+    for side, first in ((np.eye(3), 3), (MIRROR, 3 + angles)):
         frame, path = trunk.moved(side @ root), [2]
         for bone in ("humerus", "forearm", "hand"):
             segment = getattr(bird.segments, bone)
@@ -83,6 +112,19 @@ def walk(bird, q, v, a):
             at_centre = frame.moved(side @ np.array(segment.centre_of_mass))
             inertia = side @ np.array(segment.inertia) @ side
             bodies.append(Body(segment.mass, inertia, at_centre, path))
+            for h, feather in enumerate(bird.hinged_feathers):
+                if feather.bone != bone:
+                    continue
+                k = first + joints + h
+                place, direction = (side @ vector for vector in rod(bird, feather))
+                axis = np.linalg.det(side) * side @ y
+                hinge = frame.moved(place)
+                axes[k] = (hinge.R @ axis, hinge.origin)
+                hinge = hinge.turned(axis, q[k], v[k], a[k])
+                middle = hinge.moved(feather.length / 2 * direction)
+                across = np.eye(3) - np.outer(direction, direction)
+                inertia = feather.hinge.mass * feather.length**2 / 12 * across
+                bodies.append(Body(feather.hinge.mass, inertia, middle, [*path, k]))
             frame = frame.moved(side @ np.array([0.0, segment.length, 0.0]))
     return bodies, axes
 

@@ -16,10 +16,10 @@ def coordinates(model, t, x):
     u, w, q, theta = x[:4]
     angles, rates, _ = driven(model.wing, t)
     names = list(model.state_names)
-    for j, joint in enumerate(model.bird.joints):
-        if joint.name in names:
-            angles[j] = x[names.index(joint.name)]
-            rates[j] = x[names.index(f"{joint.name}.rate")]
+    for j, name in enumerate(model.bird.angle_names):
+        if name in names:
+            angles[j] = x[names.index(name)]
+            rates[j] = x[names.index(f"{name}.rate")]
     c, s = np.cos(theta), np.sin(theta)
     return (
         np.concatenate([[0, 0, theta], angles, angles]),
@@ -39,6 +39,9 @@ def applied(model, t, x):
         if joint.mode == "compliant":
             torque[j] -= joint.stiffness * (angles[j] - q[j])
             torque[j] -= joint.damping * (rates[j] - v[j])
+    for j, feather in enumerate(model.bird.hinged_feathers, len(model.bird.joints)):
+        torque[j] -= feather.hinge.stiffness * (angles[j] - feather.hinge.rest)
+        torque[j] -= feather.hinge.damping * rates[j]
     return np.concatenate([[fx * c + fz * s, -fx * s + fz * c, loads.moment[1]], torque, torque])
 
 
@@ -56,9 +59,25 @@ def compliant_birds(ibis):
     yield ibis.with_joint("forearm.roll", stiffness=2, damping=0.01).with_values(
         {**lopsided, "segments.forearm.inertia": tensor, "wing.discretisation": 12}
     )
+    hinge = {"stiffness": 2.0, "damping": 3e-3, "mass": 1.5e-3, "rest": 0.05}
+    hinged = ibis.with_values({"feathers.5.hinge": hinge, "feathers.3.hinge": hinge})
+    yield hinged
+    # Of no small mass, on bones with inertia of their own, beside compliant joints and twist.
+    yield (
+        hinged.with_joint("shoulder.flap", stiffness=20, damping=0.2)
+        .with_joint("forearm.roll", stiffness=2, damping=0.01, offset=0.2)
+        .with_values(
+            {
+                "feathers.7.hinge": {**hinge, "mass": 0.02},
+                "feathers.3.hinge.mass": 0.03,
+                "feathers.7.rest_angle": 0.3,
+                "wing.root.z": 0.02,
+            }
+        )
+    )
 
 
-@pytest.mark.parametrize("case", range(5))
+@pytest.mark.parametrize("case", range(7))
 def test_accelerations_are_those_of_newton_and_euler(ibis, case):
     bird = list(compliant_birds(ibis))[case]
     model = birdmb.MultibodyModel(bird)
@@ -66,9 +85,11 @@ def test_accelerations_are_those_of_newton_and_euler(ibis, case):
     for t in (0.0, 0.08, 0.19):
         x = model.driven_state(t) * rng.uniform(0.9, 1.1, len(model.state_names))
         x[2] = rng.normal()
+        swinging = [name.endswith("hinge.rate") for name in model.state_names]
+        x[swinging] = 5 * rng.normal(size=sum(swinging))
         q, v = coordinates(model, t, x)
         a, actuators = model.accelerations(t, x)
-        compliant = np.array([joint.mode == "compliant" for joint in bird.joints])
+        compliant = np.array([name in model.state_names for name in bird.angle_names])
         free = np.concatenate([np.ones(BODY, bool), compliant, compliant])
         prescribed = np.concatenate([np.zeros(BODY), *[driven(model.wing, t)[2]] * 2])
         np.testing.assert_array_equal(a[~free], prescribed[~free])
@@ -110,12 +131,15 @@ def test_momentum_is_conserved_without_loads(ibis_compliant):
     assert np.ptp(flight["theta"]) > 0.1
 
 
-def test_symmetric_pairs_of_joints_stay_symmetric(ibis_compliant):
+@pytest.mark.parametrize("hinged", [False, True])
+def test_symmetric_pairs_of_joints_stay_symmetric(ibis_compliant, hinged):
     """Left and right are integrated apart; their difference is round-off."""
-    model = birdmb.MultibodyModel(ibis_compliant)
-    x0 = model.initial_guess()
-    q, v = model._exudyn.integrate(*model.coordinates(0.0, x0), 0.0, 0.25, 120)
-    n = len(ibis_compliant.joints)
+    hinge = {"stiffness": 4.0, "damping": 3e-3, "mass": 1.5e-3} if hinged else None
+    bird = ibis_compliant.with_values({"feathers.5.hinge": hinge, "feathers.3.hinge": hinge})
+    model = birdmb.MultibodyModel(bird)
+    x0 = model.driven_state()
+    q, v = model._exudyn.integrate(*model.coordinates(0.0, x0), 0.0, 0.25, 180)
+    n = len(bird.angle_names)
     right, left = slice(BODY, BODY + n), slice(BODY + n, None)
     np.testing.assert_allclose(q[right], q[left], atol=1e-10)
     np.testing.assert_allclose(v[right], v[left], atol=1e-8)
