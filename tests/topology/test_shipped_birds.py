@@ -8,7 +8,14 @@ import pytest
 
 from birdmb.topology import BONES, Apex, Drag, Tail, load_bird
 
-NAMES = ("ibis", "ibis_massless", "ibis_compliant_shoulder", "ibis_tail", "ibis_thesis_ch8")
+NAMES = (
+    "ibis",
+    "ibis_massless",
+    "ibis_compliant_shoulder",
+    "ibis_hinged_feathers",
+    "ibis_tail",
+    "ibis_thesis_ch8",
+)
 
 # joint: axis, offset, amplitude and phase in degrees
 GAIT = {
@@ -69,6 +76,14 @@ def test_variants_differ_from_the_ibis_only_where_they_say(birds):
     inertias = {f"segments.{bone}.inertia": [0.002] * 3 for bone in BONES}
     assert birds["ibis_thesis_ch8"] == compliant.with_values(
         {"name": "ibis_thesis_ch8", **inertias}
+    )
+    hinge = {"stiffness": 1.0, "damping": 0.002, "mass": 0.0015}
+    assert birds["ibis_hinged_feathers"] == ibis.with_values(
+        {
+            "name": "ibis_hinged_feathers",
+            "feathers.5.hinge": {**hinge, "rest_deg": 6.1},
+            "feathers.3.hinge": {**hinge, "rest_deg": 5.3},
+        }
     )
     massless = {
         f"segments.{bone}.{key}": getattr(getattr(birds["ibis_massless"].segments, bone), key)
