@@ -8,7 +8,7 @@ from rich.table import Table
 
 from birdmb.aerodynamics.body_drag import body_drag, body_drag_force
 from birdmb.aerodynamics.tail import tail_surface
-from birdmb.cli.inertia import spring_of
+from birdmb.cli.inertia import Spring, hinge_springs, spring_of
 from birdmb.cli.progress import Progress
 from birdmb.cli.report import table_of
 from birdmb.cli.warnings import warnings_on
@@ -26,7 +26,10 @@ def run(bird: Bird) -> None:
         progress.doing("measuring the wing")
         tables = [_bird(bird), _segments(bird), _joints(bird)]
         if bird.compliant_joints:
-            tables.append(_springs(bird))
+            springs = {joint.name: spring_of(bird, joint) for joint in bird.compliant_joints}
+            tables.append(_springs("Compliant joints", "joint", springs))
+        if bird.hinged_feathers:
+            tables.append(_springs("Hinges of feathers", "hinge", hinge_springs(bird)))
         warnings = warnings_on(bird)
     console = Console()
     for table in tables:
@@ -114,17 +117,16 @@ def _joints(bird: Bird) -> Table:
     return table
 
 
-def _springs(bird: Bird) -> Table:
+def _springs(title: str, kind: str, springs: dict[str, Spring]) -> Table:
     table = table_of(
-        "Compliant joints, by themselves without air",
-        "joint", "k, N m/rad", "C, N m s/rad", "I, kg m2", "swings at",
+        f"{title}, by themselves without air",
+        kind, "k, N m/rad", "C, N m s/rad", "I, kg m2", "swings at",
         numbers=(1, 2, 3, 4),
     )  # fmt: skip
-    for joint in bird.compliant_joints:
-        spring = spring_of(bird, joint)
+    for name, spring in springs.items():
         frequency = "-" if spring.inertia == 0 else f"{spring.frequency:.3g} Hz"
         table.add_row(
-            joint.name,
+            name,
             f"{spring.stiffness:.4g}",
             f"{spring.damping:.4g}",
             f"{spring.inertia:.3g}",

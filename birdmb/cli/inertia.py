@@ -1,4 +1,4 @@
-"""How a compliant joint swings by itself."""
+"""How a compliant joint, or a feather on its hinge, swings by itself."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from birdmb.models.feather_rods import feather_rods
 from birdmb.topology import BONES, Bird, Joint
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.chain import joint_chain
@@ -18,14 +19,14 @@ _ROUND_OFF = 1e-14
 
 @dataclass(frozen=True)
 class Spring:
-    """A compliant joint with what it moves, all other joints held still."""
+    """A compliant joint or hinge with what it moves, all others held still."""
 
     stiffness: float
     """N m/rad."""
     damping: float
     """N m s/rad."""
     inertia: float
-    """kg m2 about the joint's axis, of the segments it carries."""
+    """kg m2 about its axis, of what it carries."""
 
     @property
     def frequency(self) -> float:
@@ -56,3 +57,19 @@ def spring_of(bird: Bird, joint: Joint) -> Spring:
         damping=joint.damping or 0.0,
         inertia=inertia if inertia > _ROUND_OFF * largest else 0.0,
     )
+
+
+def hinge_springs(bird: Bird) -> dict[str, Spring]:
+    """Stiffness, damping and inertia of the feathers' hinges, by the hinges' names."""
+    hinges = [(f.hinge_name, f.hinge) for f in bird.feathers if f.hinge]
+    return {
+        name: Spring(
+            stiffness=hinge.stiffness,
+            damping=hinge.damping,
+            inertia=rod.mass
+            * rod.length**2
+            / 3
+            * float(rod.direction[[0, 2]] @ rod.direction[[0, 2]]),
+        )
+        for (name, hinge), rod in zip(hinges, feather_rods(bird), strict=True)
+    }

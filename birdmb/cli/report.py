@@ -14,6 +14,7 @@ from birdmb.cli.results import growth, verdict_sentence
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
+    from birdmb.models.wing_model import WingModel
     from birdmb.orbits.problem import HasStateUnits
     from birdmb.studies import Validity
 
@@ -85,12 +86,18 @@ def _number(value: float) -> str:
 
 def _flight(cycle: FlightCycle, validity: Validity) -> Table:
     table = table_of("Flight, mean over a beat", "quantity", "value", "unit", "", numbers=(1,))
+    model = cast("WingModel", cycle.model)
     rows = (
         ("speed", f"{cycle.mean_speed:.3f}", "m/s", ""),
         ("climb rate", f"{cycle.mean_climb_rate:+.3f}", "m/s", ""),
         ("path angle", f"{np.degrees(cycle.path_angle):+.2f}", "°", ""),
         ("power", f"{cycle.power:.3f}", "W", "to move the wings against the air"),
-        ("  of feathers", f"{cycle.feather_power:.3f}", "W", "the part that no joint delivers"),
+        (
+            "  of feathers",
+            f"{cycle.feather_power:.3f}",
+            "W",
+            "the part that no joint or hinge delivers",
+        ),
         ("potential power", f"{cycle.potential_power:.3f}", "W", "drawn from sinking"),
         ("corrected power", f"{cycle.corrected_power:.3f}", "W", "the sum: as if level"),
         *_losses(cycle),
@@ -104,6 +111,7 @@ def _flight(cycle: FlightCycle, validity: Validity) -> Table:
             "largest effective one, but for the tip",
         ),
         *_tail_angle(validity),
+        ("integration", model.integration_method, "", _steps(model)),
         ("energy imbalance", f"{cycle.energy_imbalance:.1e}", "", "a check: 0 if exact"),
         (
             "integration error",
@@ -115,6 +123,11 @@ def _flight(cycle: FlightCycle, validity: Validity) -> Table:
     for row in rows:
         table.add_row(*row)
     return table
+
+
+def _steps(model: WingModel) -> str:
+    stiff = " of Radau IIA: stiff joints" if model.integration_method == "implicit" else ""
+    return f"{model.steps_per_beat} steps a beat{stiff}"
 
 
 def _losses(cycle: FlightCycle) -> list[tuple[str, str, str, str]]:

@@ -35,6 +35,7 @@ def result_object(cycle: FlightCycle, validity: Validity, model_name: str) -> di
         "residual": cycle.residual,
         "iterations": len(cycle.iterations) - 1,
         "steps_per_beat": model.steps_per_beat,
+        "integrator": model.integration_method,
         "multipliers": [[float(m.real), float(m.imag)] for m in cycle.multipliers],
         "multiplier_errors": _numbers(cycle.multiplier_errors),
         "doubling_times": _numbers(cycle.doubling_times),

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from birdmb.aerodynamics.prescribed import driven
-from birdmb.cli.inertia import spring_of
+from birdmb.cli.inertia import Spring, hinge_springs, spring_of
 from birdmb.topology import Bird, Joint
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.outline import wing_outline
@@ -18,7 +18,7 @@ _NEAR_RESONANCE = 0.2
 
 def warnings_on(bird: Bird) -> list[str]:
     """One sentence for each thing to beware of."""
-    return [*_on_surroundings(bird), *_on_joints(bird), *_on_line(bird)]
+    return [*_on_surroundings(bird), *_on_joints(bird), *_on_hinges(bird), *_on_line(bird)]
 
 
 def _on_surroundings(bird: Bird) -> Iterator[str]:
@@ -48,10 +48,21 @@ def _on_spring(bird: Bird, joint: Joint) -> Iterator[str]:
         return
     if spring.stiffness == 0:
         yield f"{joint.name} is compliant with stiffness 0: nothing pulls it towards its driver."
+    yield from _on_resonance(bird, joint.name, spring)
+
+
+def _on_hinges(bird: Bird) -> Iterator[str]:
+    for name, spring in hinge_springs(bird).items():
+        if spring.stiffness == 0:
+            yield f"{name} has stiffness 0: only the air holds the feather."
+        yield from _on_resonance(bird, name, spring)
+
+
+def _on_resonance(bird: Bird, name: str, spring: Spring) -> Iterator[str]:
     beat = bird.gait.frequency
     if abs(spring.frequency / beat - 1) < _NEAR_RESONANCE:
         yield (
-            f"{joint.name} swings by itself at {spring.frequency:.3g} Hz, close to the wingbeat of "
+            f"{name} swings by itself at {spring.frequency:.3g} Hz, close to the wingbeat of "
             f"{beat:.3g} Hz: expect large excursions."
         )
 

@@ -65,7 +65,7 @@ class Beat:
 
     @cached_property
     def driver_power(self) -> FloatArray:
-        """Power (K, J) W of the drivers of each pair of joints."""
+        """Power (K, A) W of the drivers of each pair of joints; 0 of hinges."""
         return 2.0 * self.actuator_torques * self.driver_rates
 
     @cached_property
@@ -185,7 +185,7 @@ class FlightCycle(LimitCycle):
     @cached_property
     def driver_work(self) -> dict[str, Work]:
         """Positive and negative mean power of the drivers, W, by joint, both wings together."""
-        powers = zip(self._bird_model.bird.joint_names, self.beat.driver_power.T, strict=True)
+        powers = zip(self._bird_model.bird.angle_names, self.beat.driver_power.T, strict=True)
         return {name: work_by_sign(self.beat.times, power) for name, power in powers}
 
     def muscle_power(self, recovery: float = 1.0) -> float:

@@ -1,7 +1,7 @@
 """The multibody bird in Exudyn, its joints prescribed or compliant (docs/model.md, section 7)."""
 
 from functools import cached_property, lru_cache
-from typing import Any, NamedTuple, Self
+from typing import Any, Literal, NamedTuple, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -111,6 +111,11 @@ class MultibodyModel(WingModel):
     def steps_per_beat(self) -> int:
         """Integration steps per wingbeat."""
         return self.integration.steps_per_beat
+
+    @property
+    def integration_method(self) -> Literal["explicit", "implicit"]:
+        """Kind of the integration steps: implicit where joints or hinges are stiff."""
+        return self.integration.method
 
     @property
     def mass(self) -> float:

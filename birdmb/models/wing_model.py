@@ -2,7 +2,7 @@
 
 from abc import ABC, abstractmethod
 from functools import cached_property, partial
-from typing import Any, Self
+from typing import Any, Literal, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -60,6 +60,11 @@ class WingModel(ABC):
     def steps_per_beat(self) -> int:
         """Integration steps per wingbeat."""
         return STEPS_PER_BEAT if self._steps_wanted is None else self._steps_wanted
+
+    @property
+    def integration_method(self) -> Literal["explicit", "implicit"]:
+        """Kind of the integration steps."""
+        return "explicit"
 
     @property
     def mass(self) -> float:

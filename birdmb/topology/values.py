@@ -48,7 +48,7 @@ def _walk(part: Part, prefix: str, place: Location) -> Iterator[tuple[str, Locat
             yield name, here
             yield from _walk(part.resolved_discretisation, f"{name}.", here)
         elif isinstance(child, Part):
-            if key == "hinge":  # may be taken off, or put on, as a whole
+            if type(part).model_fields[key].default is None:  # may be taken off as a whole
                 yield name, here
             yield from _walk(child, f"{name}.", here)
         elif key != "name" or not place:  # a joint or feather is not renamed: names lead to it

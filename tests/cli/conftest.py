@@ -11,6 +11,7 @@ from birdmb.cli.app import app
 TOPOLOGIES = Path(__file__).parents[2] / "topologies"
 IBIS = str(TOPOLOGIES / "ibis.toml")
 COMPLIANT = str(TOPOLOGIES / "ibis_compliant_shoulder.toml")
+HINGED = str(TOPOLOGIES / "ibis_hinged_feathers.toml")
 # The answers below do not depend on the model or on its refinement.
 QUICK = ("--model", "rigid", "--set", "wing.discretisation=8")
 

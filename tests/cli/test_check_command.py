@@ -8,7 +8,7 @@ from birdmb import load_bird
 from birdmb.cli.inertia import spring_of
 from birdmb.cli.warnings import warnings_on
 
-from .conftest import COMPLIANT, IBIS
+from .conftest import COMPLIANT, HINGED, IBIS
 
 POINTS = {f"segments.{bone}.inertia": [0, 0, 0] for bone in ("humerus", "forearm", "hand")}
 MASSLESS = POINTS | {f"segments.{bone}.mass": 0 for bone in ("humerus", "forearm", "hand")}
@@ -29,6 +29,25 @@ def test_what_the_bird_is(run):
     ):
         assert row in rows
     assert max(map(len, result.stdout.splitlines())) <= 80
+
+
+def test_hinges_of_feathers(run):
+    """I = m l^2/3, of feathers at 15 and 30 degrees to straight aft, as the joints' offsets say."""
+    result = run("check", HINGED)
+    assert result.exit_code == 0, result.stderr
+    rows = [" ".join(line.split()) for line in result.stdout.splitlines()]
+    for row in (
+        "mass of the whole bird 1.266 kg",
+        "span, joints at zero 1.360 m",
+        "feathers.5.hinge 1 0.002 1.05e-05 49.1 Hz",
+        "feathers.3.hinge 1 0.002 1.5e-05 41.1 Hz",
+        "No warnings.",
+    ):
+        assert row in rows
+    loose = run("check", HINGED, "--set", "feathers.5.hinge.stiffness=0")
+    assert "feathers.5.hinge has stiffness 0: only the air holds" in loose.stdout
+    slow = run("check", HINGED, "--set", "feathers.5.hinge.stiffness=0.0066")
+    assert "feathers.5.hinge swings by itself at 3.99 Hz, close to" in " ".join(slow.stdout.split())
 
 
 def test_warnings_are_printed_and_no_error(run):

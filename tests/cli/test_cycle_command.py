@@ -95,9 +95,24 @@ def test_tables_and_verdict(run):
         "cost of transport",
         "driver, W",
         "energy imbalance",
+        "32 steps a beat",
         "unstable: the fastest-growing disturbance doubles in 0.",
     ):
         assert text in result.stdout
+    assert max(map(len, result.stdout.splitlines())) <= 80
+
+
+def test_stiff_hinges_are_integrated_implicitly_and_it_is_said(run):
+    tiny = "feathers.5.hinge={stiffness = 1, damping = 0.002, rest_deg = 6.1, mass = 5e-5}"
+    values = ("--set", tiny, "--set", "wing.discretisation=4", "--steps-per-beat", "30")
+    result = run("cycle", IBIS, *values)
+    assert result.exit_code == 0, result.stderr
+    assert "ibis, multibody model: 6 states" in result.stderr
+    rows = [" ".join(line.split()) for line in result.stdout.splitlines()]
+    assert "integration implicit 30 steps a beat of Radau IIA: stiff joints" in rows
+    assert any(row.startswith("feathers.5.hinge.rate") for row in rows)
+    # In the table of powers: dissipated by the damper, no work of a driver.
+    assert any(row.startswith("feathers.5.hinge -0.0") for row in rows)
     assert max(map(len, result.stdout.splitlines())) <= 80
 
 
@@ -119,3 +134,4 @@ def test_options_reach_model_and_search(run):
     assert found["x0"] == pytest.approx(dict(zip(cycle.state_names, cycle.x0, strict=True)))
     assert found["iterations"] == len(cycle.iterations) - 1
     assert found["steps_per_beat"] == 60
+    assert found["integrator"] == "explicit"

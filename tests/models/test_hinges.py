@@ -149,6 +149,7 @@ def test_what_hinges_take_is_what_their_dampers_dissipate(cycle, shipped):
         assert abs(np.mean(spring[:-1])) < 1e-4 * np.abs(spring).max()
         assert cycle.joint_powers[feather.hinge_name] == pytest.approx(-dissipated, rel=0.01)
         assert cycle.driver_powers[feather.hinge_name] == 0.0
+        assert cycle.driver_work[feather.hinge_name] == (0.0, 0.0)
     assert list(cycle.to_xarray()["joint"].values) == list(shipped.angle_names)
 
 

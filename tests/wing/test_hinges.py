@@ -125,7 +125,7 @@ def test_torque_about_a_hinge_is_the_work_of_the_loads(hinged):
     angles, rates = posed(hinged, 0.03)
     shape = wing_shape(hinged, angles, rates, 16, ROUNDING, False)
     placed = place_elements(shape, hinged.root)
-    force = element_loads(placed, 1.225, 18.0, -2.0, 0.3).force
+    force = element_loads(placed, 1.225, 0.0, 18.0, -2.0, 0.3).force
     torque = hinge_torques(shape.hinge_velocity, force)
     h = 1e-5
     for hinge in (0, 1):
