@@ -179,7 +179,7 @@ class ExudynBird:
                 except (BirdmbError, KeyboardInterrupt) as error:
                     # Exudyn would rewrap it and print a banner; it is raised again afterwards.
                     failures.append(error)
-                except np.linalg.LinAlgError:
+                except (np.linalg.LinAlgError, ZeroDivisionError):
                     # The motion runs away and overflows: let it end as not finite.
                     pass
             return np.full(n, np.nan)

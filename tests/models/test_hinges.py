@@ -210,6 +210,18 @@ def test_tiny_feathers_are_integrated_implicitly_without_being_asked(shipped, cy
         too_few.flow(x, 0.05, 0.25)
 
 
+def test_a_wing_that_runs_away_into_a_division_by_zero_is_told(shipped, cycle, monkeypatch):
+    """A hinge that spins may turn its feather onto the leading edge: no wing is left there."""
+    model = birdmb.MultibodyModel(shipped, steps_per_beat=120)
+
+    def no_wing(*_):
+        raise ZeroDivisionError
+
+    monkeypatch.setattr("birdmb.models.multibody.wing_shape", no_wing)
+    with pytest.raises(birdmb.StateError, match="diverged"):
+        model.flow(cycle.x0, 0.0, 0.1)
+
+
 def test_a_feather_along_the_axis_of_its_hinge_is_told(ibis):
     bird = ibis.with_values(
         {
