@@ -51,11 +51,11 @@ class TrimGuess:
 
     Attributes:
         values: of the parameters, by dotted name.
-        x0: its state (n,) at t = 0.
+        x0: its state (n,) at t = 0; level forward flight if it is not known.
     """
 
     values: Mapping[str, float]
-    x0: npt.ArrayLike
+    x0: npt.ArrayLike | None = None
 
 
 def trim_flight(
@@ -71,10 +71,12 @@ def trim_flight(
 ) -> Trim:
     """Find the value of a parameter that gives a mean climb rate, or of two that also give a speed.
 
-    Newton's method on closure and targets together (`TrimEquations`), from the guess if there is
-    one, then from the bird's own values, or from the middle of the bounds where they are beyond
-    these. Where this fails without a guess: for one parameter Brent's method in the sign change
-    nearest to the start on a grid over the bounds, for two bounded least squares.
+    Newton's method on closure and targets together (`TrimEquations`), at the bird's own values of
+    the parameters, or in the middle of the bounds where they are beyond these. It starts from the
+    guess if there is one, from a body in level forward flight, and from the limit cycle at the
+    start. Where all this fails without a guess: for one parameter Brent's method in the sign change
+    nearest to the start on a grid over the bounds, for two bounded least squares. A bird that
+    stands up steeply (30 degrees) is taken for trimmed only if nothing else is found.
 
     Args:
         bird: the bird.
@@ -104,8 +106,11 @@ def trim_flight(
     with suppress(Trimmed):
         if guess is not None:
             point = np.array([guess.values[name] for name in trials.names])
-            _solve_together(trials, point, np.asarray(guess.x0, dtype=float))
+            _solve_together(trials, point, guess.x0)
         _solve_together(trials, trials.start, None)
+        if guess is None:
+            with suppress(OrbitError, StateError):
+                _solve_together(trials, trials.start, trials.state_at(trials.start))
         if guess is None and speed is None:
             _solve_one(trials)
         elif guess is None:
@@ -113,14 +118,15 @@ def trim_flight(
     return _result(trials)
 
 
-def _solve_together(search: TrimSearch, point: FloatArray, x0: FloatArray | None) -> None:
-    """Raise `Trimmed` if Newton's method finds a trim from this point and state.
+def _solve_together(search: TrimSearch, point: FloatArray, x0: npt.ArrayLike | None) -> None:
+    """Raise `Trimmed` if Newton's method finds a trim from this point and state (n,).
 
-    The state by default: of the limit cycle there, or the model's guess where it has none.
+    The state by default: forward flight. That it fails is no error: there are other places.
     """
     with suppress(OrbitError, StateError):
-        found, x0 = search.equations.solve(point, search.state_at(point) if x0 is None else x0)
-        search.start_from(x0)
+        start = search.forward_flight() if x0 is None else np.asarray(x0, dtype=float)
+        found, state = search.equations.solve(point, start)
+        search.start_from(state)
         search.differences(found)
 
 

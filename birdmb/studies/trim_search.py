@@ -13,10 +13,15 @@ import numpy as np
 from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError, StateError
 from birdmb.models import FlightCycle, WingModel
+from birdmb.models.wing_model import BODY_STATES
 from birdmb.orbits.problem import HasInitialGuess
 from birdmb.studies.cycles import ModelFactory, WarmCycles
 from birdmb.studies.trim_equations import TrimEquations
 from birdmb.topology import Bird
+
+_STEEP = np.radians(30.0)
+_LIFT_COEFFICIENT = 0.6
+_SLOWEST = 1.0  # m/s
 
 
 class Trimmed(Exception):  # noqa: N818 - it reports success
@@ -31,6 +36,11 @@ class Trial:
     cycle: FlightCycle
     reached: dict[str, float]
     differences: FloatArray
+
+    @property
+    def steep(self) -> bool:
+        """Whether the body stands up rather than flies forwards; such flights are a last resort."""
+        return abs(self.cycle.mean_pitch) > _STEEP
 
 
 class TrimSearch:
@@ -61,7 +71,7 @@ class TrimSearch:
         """Reached minus wanted (k,), m/s.
 
         Raises:
-            Trimmed: they are all within the tolerance.
+            Trimmed: they are all within the tolerance, in a flight that is not steep.
             OrbitError, StateError: there is no limit cycle.
         """
         key = tuple(point.tolist())
@@ -74,7 +84,7 @@ class TrimSearch:
             reached = {"climb_rate": cycle.mean_climb_rate, "speed": cycle.mean_speed}
             missed = np.array([reached[name] - wanted for name, wanted in self._targets.items()])
             self.found[key] = Trial(point.copy(), cycle, reached, missed)
-            if self.is_trimmed(self.found[key]):
+            if self.is_trimmed(self.found[key]) and not self.found[key].steep:
                 raise Trimmed
         return self.found[key].differences
 
@@ -85,6 +95,20 @@ class TrimSearch:
 
     def _model_at(self, point: FloatArray) -> WingModel:
         return cast("WingModel", self._model(self.bird.with_values(self.named(point))))
+
+    def forward_flight(self) -> FloatArray:
+        """State (n,) of a level body that flies as fast as its wings need to carry it."""
+        model = self._model_at(self.start)
+        x = np.zeros(len(BODY_STATES))
+        if len(model.state_names) > x.size:
+            x = cast("HasInitialGuess", model).initial_guess()
+        still = model.loads(0.0, x)
+        area = 2.0 * float((still.chord * still.width).sum())
+        bird = model.bird
+        lift = 0.5 * bird.air.density * area * _LIFT_COEFFICIENT
+        fastest = np.sqrt(model.mass * bird.gravity / lift) if lift else 0.0
+        x[: len(BODY_STATES)] = max(float(fastest), _SLOWEST), 0.0, 0.0, 0.0
+        return x
 
     def state_at(self, point: FloatArray) -> FloatArray:
         """State (n,) of the limit cycle with these parameters, or the model's guess of it.
@@ -104,9 +128,13 @@ class TrimSearch:
 
     @property
     def best(self) -> Trial | None:
-        """The trial that misses the targets least."""
-        trials = self.found.values()
-        return min(trials, key=lambda t: float(np.abs(t.differences).max()), default=None)
+        """The trial that misses the targets least; one that meets them without being steep."""
+
+        def badness(trial: Trial) -> tuple[bool, bool, float]:
+            missed = float(np.abs(trial.differences).max())
+            return missed > self._tolerance, trial.steep, missed
+
+        return min(self.found.values(), key=badness, default=None)
 
     def is_trimmed(self, trial: Trial) -> bool:
         """Whether it misses the targets by no more than the tolerance."""
