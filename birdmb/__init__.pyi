@@ -39,7 +39,9 @@ from .studies import (
     tunnel_and_free_flight,
 )
 from .studies.branch import bird_branch
+from .studies.scaling import ScaledBird, scale_bird
 from .studies.sweeps import Study, SweepError, Trimming, sweep
+from .studies.tail_study import stability_openings, tail_study
 from .topology import Bird, load_bird
 
 __all__ = [
@@ -59,6 +61,7 @@ __all__ = [
     "OdeModel",
     "OrbitError",
     "RigidModel",
+    "ScaledBird",
     "StateError",
     "StepGust",
     "Study",
@@ -83,8 +86,11 @@ __all__ = [
     "perturbed_flight",
     "perturbed_response",
     "plot_gust_response",
+    "scale_bird",
     "stability_boundary",
+    "stability_openings",
     "sweep",
+    "tail_study",
     "trim_flight",
     "tunnel_and_free_flight",
 ]

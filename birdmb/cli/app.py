@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from birdmb.cli.flight_commands import commands as flight_commands
 from birdmb.cli.options import (
     Assignments,
     Json,
@@ -263,6 +264,7 @@ def validate(
 
 
 app.add_typer(study_commands)
+app.add_typer(flight_commands)
 
 
 def main() -> None:

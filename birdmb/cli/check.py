@@ -13,8 +13,7 @@ from birdmb.cli.progress import Progress
 from birdmb.cli.report import table_of
 from birdmb.cli.warnings import warnings_on
 from birdmb.topology import BONES, Bird
-from birdmb.wing.arrays import wing_arrays
-from birdmb.wing.outline import wing_outline
+from birdmb.wing.outline import span_and_area
 
 _DRAG_SPEED = 10.0  # m/s
 
@@ -44,7 +43,7 @@ def run(bird: Bird) -> None:
 
 def _bird(bird: Bird) -> Table:
     table = table_of(bird.name, "quantity", "value", "unit", numbers=(1,))
-    span, area = _span_and_area(bird)
+    span, area = span_and_area(bird)
     numbers = bird.wing.resolved_discretisation
     weight = bird.total_mass * bird.gravity
     rows = (
@@ -78,18 +77,6 @@ def _tail_and_drag(bird: Bird) -> list[tuple[str, str, str]]:
         drag = -body_drag_force(body_drag(bird), _DRAG_SPEED, 0.0)[0, 0]
         rows.append((f"body drag at {_DRAG_SPEED:g} m/s", f"{drag:.3g}", "N"))
     return rows
-
-
-def _span_and_area(bird: Bird) -> tuple[float, float]:
-    """Span (m) and area (m2) of the wings stretched out, with the gap over the body."""
-    wing = wing_arrays(bird)
-    angles = wing.offset.copy()
-    angles[: len(bird.joints)] = 0.0
-    outline = wing_outline(wing, angles, bird.wing.resolved_discretisation)
-    panels = outline.panels
-    diagonals = np.cross(panels[:, 2] - panels[:, 0], panels[:, 3] - panels[:, 1])
-    area = 2.0 * float(np.linalg.norm(diagonals, axis=1).sum() / 2.0)
-    return 2.0 * float(outline.leading[:, 1].max()), area
 
 
 def _segments(bird: Bird) -> Table:

@@ -38,6 +38,21 @@ def requested_trim(
     """What `--trim`, `--climb-rate` and `--speed` ask for; `None` without a `--trim`.
 
     Raises:
+        TopologyError, InputError: as `requested_bounds`; or a speed without parameters.
+    """
+    if not texts:
+        if speed is not None:
+            raise InputError("--speed needs two parameters to --trim the flight by.")
+        return None
+    return Trimming(requested_bounds(bird, texts, speed, "--trim"), climb_rate, speed)
+
+
+def requested_bounds(
+    bird: Bird, texts: Sequence[str], speed: float | None, option: str
+) -> dict[str, tuple[float, float]]:
+    """Bounds by dotted name of `NAME=LOWEST:HIGHEST`: one, or two if a speed is wanted.
+
+    Raises:
         TopologyError: the bird has no value of that name.
         InputError: bounds are none, or there are not as many parameters as targets.
     """
@@ -51,17 +66,15 @@ def requested_trim(
             low = high = math.nan
         if not low < high:
             raise InputError(
-                f'--trim "{text}" must read NAME=LOWEST:HIGHEST, as in '
+                f'{option} "{text}" must read NAME=LOWEST:HIGHEST, as in '
                 "forearm.roll.offset_deg=-12:12."
             )
         bounds[name.strip()] = (low, high)
     targets = 1 if speed is None else 2
-    if bounds and len(bounds) != targets:
+    if len(bounds) != targets:
         wanted = "a climb rate" if targets == 1 else "a climb rate and a speed"
-        raise InputError(f"--trim to {wanted} needs {targets} parameter(s), not {len(bounds)}.")
-    if not bounds and speed is not None:
-        raise InputError("--speed needs two parameters to --trim the flight by.")
-    return Trimming(bounds, climb_rate, speed) if bounds else None
+        raise InputError(f"{option}: {wanted} needs {targets} parameter(s), not {len(bounds)}.")
+    return bounds
 
 
 def _list(name: str, listed: str) -> list[Any]:

@@ -23,6 +23,10 @@ from birdmb.topology import Bird
 
 _STEPS = 25
 _GRID = 9
+DEFAULT_PARAMETERS = {
+    "forearm.roll.offset_deg": (-30.0, 30.0),
+    "shoulder.flap.amplitude_deg": (15.0, 70.0),
+}
 _DIFFERENCE = 1e-5  # of the distance between the bounds; cycles are known to about 1e-9
 
 
@@ -60,7 +64,7 @@ class TrimGuess:
 
 def trim_flight(
     bird: Bird,
-    parameters: Mapping[str, tuple[float, float]],
+    parameters: Mapping[str, tuple[float, float]] | None = None,
     *,
     climb_rate: float = 0.0,
     speed: float | None = None,
@@ -80,7 +84,8 @@ def trim_flight(
 
     Args:
         bird: the bird.
-        parameters: bounds (lowest, highest) by dotted name; one parameter, or two with `speed`.
+        parameters: bounds (lowest, highest) by dotted name; one parameter, or two with `speed`. By
+            default the offset of forearm.roll, and the flap amplitude.
         climb_rate: wanted mean climb rate, m/s, upwards positive; 0 is level flight.
         speed: wanted mean speed (`FlightCycle.mean_speed`), m/s.
         model: makes the model of a bird, as `RigidModel` and `MultibodyModel` do.
@@ -94,6 +99,8 @@ def trim_flight(
         TrimError: no trim was found within the bounds; it says what was reached.
     """
     targets = {"climb_rate": climb_rate} | ({} if speed is None else {"speed": speed})
+    if parameters is None:
+        parameters = dict(list(DEFAULT_PARAMETERS.items())[: len(targets)])
     if len(parameters) != len(targets):
         raise ArgumentError(
             f"{len(targets)} target(s) ({', '.join(targets)}) need as many parameters, "

@@ -88,6 +88,9 @@ def _followed(
     while len(points) < max_points:
         ahead = last + step * direction
         if (ahead < 0.0).any() or (ahead > 1.0).any():
+            if step > longest / 64:
+                step /= 2
+                continue
             return points, "a bound"
         across = np.array([-direction[1], direction[0]])
         try:

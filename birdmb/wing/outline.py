@@ -6,8 +6,8 @@ from typing import cast
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.topology import Discretisation
-from birdmb.wing.arrays import WingArrays
+from birdmb.topology import Bird, Discretisation
+from birdmb.wing.arrays import WingArrays, wing_arrays
 from birdmb.wing.edges import feather_ends, leading_edge, skeleton
 from birdmb.wing.line import orthogonal_line
 from birdmb.wing.one_step import one_step_line
@@ -87,3 +87,15 @@ def _rounded(vertices: FloatArray, rounding: float) -> FloatArray:
     for s, out in zip(np.linspace(0.0, 1.0, len(points)), points, strict=True):
         point(edge, s, out)
     return cast(FloatArray, points)
+
+
+def span_and_area(bird: Bird) -> tuple[float, float]:
+    """Span (m) and area (m2) of the wings stretched out, with the gap over the body."""
+    wing = wing_arrays(bird)
+    angles = wing.offset.copy()  # of hinges they are the rest angles
+    angles[: len(bird.joints)] = 0.0
+    outline = wing_outline(wing, angles, bird.wing.resolved_discretisation)
+    panels = outline.panels
+    diagonals = np.cross(panels[:, 2] - panels[:, 0], panels[:, 3] - panels[:, 1])
+    area = 2.0 * float(np.linalg.norm(diagonals, axis=1).sum() / 2.0)
+    return 2.0 * float(outline.leading[:, 1].max()), area

@@ -1,0 +1,140 @@
+"""The commands `birdmb trim`, `birdmb tail-study` and `birdmb scale`, and their options."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from birdmb.cli.options import Assignments, ModelChoice, ModelName, Topology
+from birdmb.cli.outcome import reported
+
+commands = typer.Typer()
+
+
+@commands.command(
+    epilog=(
+        "Exit status: 0 trimmed; 1 there is no trim within the bounds; 2 wrong topology, value or "
+        "option; 130 interrupted.\n\n"
+        "Example: birdmb trim topologies/ibis_tail.toml --model rigid --speed 13"
+    )
+)
+def trim(
+    topology: Topology,
+    by: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME=LOW:HIGH",
+            help="Trim by this value of the bird, within the bounds; twice with a --speed.",
+            show_default="forearm.roll.offset_deg=-30:30, with a speed "
+            "shoulder.flap.amplitude_deg=15:70 too",
+        ),
+    ] = None,
+    climb_rate: Annotated[
+        float, typer.Option(metavar="V", help="Climb rate to trim to, m/s.")
+    ] = 0.0,
+    speed: Annotated[
+        float | None,
+        typer.Option(metavar="V", help="Speed to trim to, m/s.", show_default="any"),
+    ] = None,
+    model: ModelChoice = ModelName.MULTIBODY,
+    assignments: Assignments = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Write the trimmed bird as a topology file (TOML)."),
+    ] = None,
+) -> None:
+    """Trim the flight of a bird: to level flight, at a wanted speed, or to a climb rate."""
+    with reported():
+        from birdmb.cli.birds import requested_bird  # noqa: PLC0415
+        from birdmb.cli.variations import requested_bounds  # noqa: PLC0415
+
+        bird = requested_bird(topology, assignments or [])
+        bounds = requested_bounds(bird, by, speed, "--by") if by else None
+
+        from birdmb.cli.trim import run  # noqa: PLC0415 - not before all of it is sound
+
+        run(bird, bounds, climb_rate, speed, model=model.value, out=out)
+
+
+@commands.command(
+    epilog=(
+        "Exit status: 0 every flight is finished, levelled or with the reason why it cannot be; 2 "
+        "wrong topology, value or option, or a store of another study; 130 interrupted.\n\n"
+        "Example: birdmb tail-study topologies/ibis_tail.toml --store tail.db --every 5 "
+        "--out results"
+    )
+)
+def tail_study(
+    topology: Topology,
+    store: Annotated[
+        Path,
+        typer.Option(
+            metavar="FILE",
+            help="Keep every finished flight in this file (SQLite). If there is one, only what is "
+            "missing in it is computed.",
+        ),
+    ],
+    every: Annotated[
+        int,
+        typer.Option(
+            min=1, metavar="N", help="Take one of N values; 5 is a coarse study of minutes."
+        ),
+    ] = 1,
+    workers: Annotated[
+        int | None,
+        typer.Option(
+            min=1, metavar="N", help="Processes that compute.", show_default="one for each core"
+        ),
+    ] = None,
+    assignments: Assignments = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="Write dataset (NetCDF) and figures into this directory."),
+    ] = None,
+) -> None:
+    """Level the flight for 19 734 tail openings and gaits: what stability costs (rigid bird).
+
+    Figures: the manifold of level flights, the least cost at each speed, the Pareto front of cost
+    and stability, and the opening of the tail at which flight becomes stable.
+    """
+    with reported():
+        from birdmb.cli.birds import requested_bird  # noqa: PLC0415
+
+        bird = requested_bird(topology, assignments or [])
+
+        from birdmb.cli.tail_study import run  # noqa: PLC0415 - not before the bird is sound
+
+        run(bird, store, every=every, workers=workers, out=out)
+
+
+@commands.command(
+    epilog=(
+        "Exit status: 0 written; 2 a mass or topology that is none.\n\n"
+        "Example: birdmb scale --mass 0.4 --out small.toml"
+    )
+)
+def scale(
+    mass: Annotated[float, typer.Option(metavar="KG", help="Mass of the whole bird, kg.")],
+    topology: Annotated[
+        Path | None,
+        typer.Option(
+            "--like",
+            metavar="FILE",
+            help="Topology file of the bird that is scaled.",
+            show_default="the ibis",
+        ),
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Write it here.", show_default="standard output"),
+    ] = None,
+) -> None:
+    """Make a topology file of a bird of another mass by allometric laws, as a starting point.
+
+    Span 1.17 m^0.39 m, wing area 0.16 m^0.72 m2 and wingbeat frequency 3.87 m^-0.33 Hz of birds of
+    m kg; the file says what else was assumed.
+    """
+    with reported():
+        from birdmb.cli.scale import run  # noqa: PLC0415
+
+        run(mass, topology, out)

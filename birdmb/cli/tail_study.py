@@ -1,0 +1,71 @@
+"""The command `birdmb tail-study`."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+
+import typer
+from rich.console import Console
+
+from birdmb.cli.files import prepare, write_whole
+from birdmb.cli.progress import Progress
+from birdmb.cli.sweep import SweepProgress
+from birdmb.studies.tail_figures import (
+    plot_envelope,
+    plot_manifold,
+    plot_pareto,
+    plot_stability_openings,
+)
+from birdmb.studies.tail_study import SWEEP, stability_openings, tail_study, within_rules
+from birdmb.topology import Bird
+
+_DPI = 150
+_CURVES = 4
+
+
+def run(bird: Bird, store: Path, *, every: int, workers: int | None, out: Path | None) -> None:
+    """Fill the store, say what it holds, and draw it."""
+    if out is not None:
+        prepare(out)
+    console = Console(stderr=True)
+    with SweepProgress(console) as progress:
+        study = tail_study(bird, store, every=every, workers=workers, on_point=progress.update)
+    data = study.to_xarray(timings=True)
+    found = data["status"] == "found"
+    allowed = within_rules(data)
+    stable = allowed & (data["stability"] == "stable")
+    seconds = float(data["seconds"].sum())
+    typer.echo(
+        f"{store}: {study.total} gaits and openings, {int(found.sum())} of them fly level, "
+        f"{int(allowed.sum())} within the rules, {int(stable.sum())} of these stable; "
+        f"{study.total / seconds:.2f} flights per second and core."
+    )
+    if out is None:
+        return
+    figures = {
+        "manifold": plot_manifold(data),
+        "envelope": plot_envelope(data),
+        "pareto": plot_pareto(data),
+    }
+    drawing = Progress(console)
+    with drawing.shown():
+        drawing.doing("tracing the openings at which flight becomes stable")
+        values = data[SWEEP].values
+        picked = values[:: max(1, (values.size - 1) // (_CURVES - 1))]
+        curves = stability_openings(bird, picked.tolist())
+        figures["stability_opening"] = plot_stability_openings(curves, bird.name)
+    for name, figure in figures.items():
+        save = partial(figure.savefig, dpi=_DPI, format="png")
+        typer.echo(f"wrote {write_whole(out / f'{store.stem}_{name}.png', save)}")
+    save = partial(data.to_netcdf, engine="h5netcdf")
+    typer.echo(f"wrote {write_whole(out / f'{store.stem}.nc', save)}")
+    for each in curves:
+        for curve in each.curves:
+            (a0, b0), (a1, b1) = curve.points[[0, -1]]
+            typer.echo(
+                f"sweep offset {each.sweep:g}: stable beyond {b0:.3f} deg of opening at amplitude "
+                f"{a0:.2f} to {b1:.3f} at {a1:.2f}"
+            )
+        if not each.curves:
+            typer.echo(f"sweep offset {each.sweep:g}: no level flight changes stability")

@@ -1,0 +1,57 @@
+"""The command `birdmb trim`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+from pathlib import Path
+
+import typer
+from rich.console import Console
+
+from birdmb.cli.files import write_whole
+from birdmb.cli.progress import Progress
+from birdmb.cli.results import verdict_sentence
+from birdmb.models import MultibodyModel, RigidModel
+from birdmb.studies.trim import trim_flight
+from birdmb.studies.validity import assess_validity
+from birdmb.topology import Bird
+from birdmb.topology.writing import write_bird
+
+
+def run(
+    bird: Bird,
+    parameters: Mapping[str, tuple[float, float]] | None,
+    climb_rate: float,
+    speed: float | None,
+    *,
+    model: str,
+    out: Path | None,
+) -> None:
+    """Trim, and say to what, by which values, and how it flies then."""
+    progress = Progress(Console(stderr=True))
+    with progress.shown():
+        progress.doing("trimming the flight")
+        found = trim_flight(
+            bird,
+            parameters,
+            climb_rate=climb_rate,
+            speed=speed,
+            model=RigidModel if model == "rigid" else MultibodyModel,
+        )
+        cycle = found.cycle
+        warnings = assess_validity(cycle).warnings
+    for name, value in found.values.items():
+        typer.echo(f"{name} = {value:.6g}")
+    typer.echo(
+        f"speed {cycle.mean_speed:.4f} m/s, climb rate {cycle.mean_climb_rate:+.1e} m/s, power "
+        f"{cycle.power:.4f} W, cost of transport {cycle.cost_of_transport:.4f}"
+    )
+    typer.echo(verdict_sentence(cycle))
+    for warning in warnings:
+        typer.echo(f"outside the model's validity: {warning}")
+    if out is not None:
+        values = ", ".join(f"{name} = {value:.6g}" for name, value in found.values.items())
+        about = [f"{bird.name}, trimmed: {values}."]
+        write = partial(write_bird, found.bird, about=about)
+        typer.echo(f"wrote {write_whole(out, write)}")

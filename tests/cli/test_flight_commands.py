@@ -1,0 +1,109 @@
+"""`birdmb trim`, `birdmb tail-study` and `birdmb scale`."""
+
+import pytest
+
+import birdmb
+
+from .conftest import IBIS, TOPOLOGIES
+
+TAIL = str(TOPOLOGIES / "ibis_tail.toml")
+COARSE = ("--set", "wing.discretisation.elements=8")
+
+
+def test_trim_writes_the_bird_that_it_found(run, tmp_path):
+    out = tmp_path / "trimmed.toml"
+    done = run(
+        "trim", TAIL, "--model", "rigid", "--speed", "13", "--out", str(out),
+        "--set", "tail.opening_deg=20", *COARSE,
+    )  # fmt: skip
+    assert done.exit_code == 0, done.stderr
+    assert "speed 13.0000 m/s" in done.stdout
+    assert "stable" in done.stdout
+    cycle = birdmb.find_limit_cycle(birdmb.RigidModel(birdmb.load_bird(out)))
+    assert cycle.mean_speed == pytest.approx(13.0, abs=1e-5)
+    assert cycle.mean_climb_rate == pytest.approx(0.0, abs=1e-5)
+
+
+def test_no_trim_is_a_sentence(run):
+    done = run("trim", TAIL, "--model", "rigid", "--by", "forearm.roll.offset_deg=10:12", *COARSE)
+    assert done.exit_code == 1
+    assert "no trim to climb rate 0 m/s" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("--by", "forearm.roll.offset_deg=3"), "NAME=LOWEST:HIGHEST"),
+        (("--by", "forearm.rol.offset_deg=-3:3"), "no value is called"),
+        (("--by", "forearm.roll.offset_deg=-3:3", "--speed", "13"), "2 parameter(s), not 1"),
+    ],
+)
+def test_wrong_bounds(run, arguments, said):
+    done = run("trim", TAIL, *arguments)
+    assert done.exit_code == 2
+    assert said in " ".join(done.stderr.split())
+
+
+def test_tail_study(run, tmp_path):
+    store = tmp_path / "tail.db"
+    out = tmp_path / "figures"
+    done = run(
+        "tail-study", TAIL, "--store", str(store), "--every", "16", "--out", str(out), *COARSE
+    )
+    assert done.exit_code == 0, done.stderr
+    assert "fly level" in done.stdout
+    names = {path.name for path in out.iterdir()}
+    figures = ("manifold", "envelope", "pareto", "stability_opening")
+    assert names == {"tail.nc"} | {f"tail_{name}.png" for name in figures}
+
+
+def test_tail_study_needs_a_tail(run, tmp_path):
+    done = run("tail-study", IBIS, "--store", str(tmp_path / "x.db"))
+    assert done.exit_code == 2
+    assert "tail.opening_deg" in done.stderr
+
+
+def test_sweep_of_trimmed_flights(run, tmp_path):
+    store = tmp_path / "level.db"
+    done = run(
+        "sweep", TAIL, "--model", "rigid", "--vary", "shoulder.flap.amplitude_deg=42,40",
+        "--set", "tail.opening_deg=10", "--trim", "forearm.roll.offset_deg=-30:30",
+        "--store", str(store), "--workers", "1", *COARSE,
+    )  # fmt: skip
+    assert done.exit_code == 0, done.stderr
+    data = birdmb.Study.open(store).to_xarray()
+    assert abs(data.climb_rate).max() < 1e-6
+    assert data["forearm.roll.offset_deg"].notnull().all()
+    other = run(
+        "sweep", TAIL, "--model", "rigid", "--vary", "shoulder.flap.amplitude_deg=42,40",
+        "--set", "tail.opening_deg=10", "--store", str(store), *COARSE,
+    )  # fmt: skip
+    assert other.exit_code == 2
+    assert "the trim is" in " ".join(other.stderr.split())
+
+
+def test_speed_without_parameters(run, tmp_path):
+    done = run(
+        "sweep", TAIL, "--vary", "shoulder.flap.amplitude_deg=42,40", "--speed", "13",
+        "--store", str(tmp_path / "x.db"),
+    )  # fmt: skip
+    assert done.exit_code == 2
+    assert "--trim" in done.stderr
+
+
+def test_scale(run, tmp_path):
+    printed = run("scale", "--mass", "0.4")
+    assert printed.exit_code == 0
+    assert printed.stdout.startswith("# A bird of 0.4 kg")
+    out = tmp_path / "small.toml"
+    assert run("scale", "--mass", "0.4", "--out", str(out)).exit_code == 0
+    assert out.read_text() == printed.stdout
+    assert birdmb.load_bird(out).total_mass == pytest.approx(0.4)
+    assert run("check", str(out)).exit_code == 0
+
+
+def test_scale_by_no_mass(run):
+    done = run("scale", "--mass", "-1")
+    assert done.exit_code == 2
+    assert "mass must be positive" in done.stderr
