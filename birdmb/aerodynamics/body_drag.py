@@ -1,4 +1,4 @@
-"""Drag of the body at its centre of mass (docs/model.md, section 6)."""
+"""Drag of the body at its centre of mass (docs/model.md, section 9)."""
 
 from typing import NamedTuple
 

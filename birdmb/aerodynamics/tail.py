@@ -1,4 +1,4 @@
-"""Loads of the tail: a slender triangle in the wake of the wings (docs/model.md, section 6).
+"""Loads of the tail: a slender triangle in the wake of the wings (docs/model.md, section 9).
 
 Everything is in body axes and in the plane of symmetry. The loads act at the centre of pressure of
 a slender delta wing, two thirds of its chord behind the apex, and follow the air's velocity there.

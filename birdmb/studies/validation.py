@@ -44,7 +44,7 @@ class Comparison:
 
 
 def published_cases(topologies: Path) -> list[Case]:
-    """The cases of chapters 5, 7, 8 and appendix A; `topologies` holds the shipped birds."""
+    """The cases of chapters 5 to 8 and appendix A; `topologies` holds the shipped birds."""
 
     def bird(name: str, **values: object) -> Bird:
         changes = {key.replace("__", "."): value for key, value in values.items()}
@@ -79,6 +79,21 @@ def published_cases(topologies: Path) -> list[Case]:
             "python examples/bird_level_flight.py",
             {"flap amplitude, deg": 43.47},
             lambda: _level(bird("ibis", **published)),
+        ),
+        Case(
+            "chapter 6, tail 40 deg open, level, tail at 2 deg to the body",
+            "birdmb trim topologies/ibis_tail.toml --model rigid",
+            _CHAPTER_6,
+            lambda: _with_tail(bird("ibis_tail")),
+        ),
+        Case(
+            "chapter 6, tail along the body, without downwash, published discretisation",
+            "birdmb trim topologies/ibis_tail.toml --model rigid --set tail.incidence_deg=0 "
+            "--set tail.downwash=none --set wing.discretisation=published",
+            _CHAPTER_6,
+            lambda: _with_tail(
+                bird("ibis_tail", **published, tail__incidence_deg=0.0, tail__downwash="none")
+            ),
         ),
         Case(
             "chapter 7, rigid bird, published discretisation",
@@ -122,6 +137,22 @@ def _orbit(model: RigidModel | MultibodyModel) -> Quantities:
 def _level(bird: Bird) -> Quantities:
     name = "shoulder.flap.amplitude_deg"
     return {"flap amplitude, deg": float(trim_flight(bird, {name: (40.0, 47.0)}).values[name])}
+
+
+_CHAPTER_6 = {
+    "largest |multiplier|": 0.96,
+    "power, W": 16.7,
+    "speed, m/s": 14.0,
+    "forearm.roll offset, deg": -5.5,
+}
+
+
+def _with_tail(bird: Bird) -> Quantities:
+    trim = trim_flight(bird)
+    (roll,) = trim.values.values()
+    largest = float(np.abs(trim.cycle.multipliers).max())
+    values = (largest, trim.cycle.power, trim.cycle.mean_speed, roll)
+    return dict(zip(_CHAPTER_6, values, strict=True))
 
 
 def _chapter_8(topologies: Path) -> Iterator[Case]:
