@@ -12,13 +12,14 @@ import numpy as np
 import scipy.sparse as sp
 
 from birdmb._typing import FloatArray
-from birdmb.errors import StateError
+from birdmb.errors import OrbitError, StateError
 from birdmb.models.flight_cycle import world_velocity
 from birdmb.models.wing_model import WingModel
-from birdmb.orbits.newton import solve
+from birdmb.orbits.newton import Iteration, solve
 
 _TOLERANCE = 1e-10  # below what cycles are searched to, so that theirs is met at once
 _ITERATIONS = 12
+_LEAST_DAMPING = 1 / 16  # a search that creeps seldom arrives, and takes long
 _STEP = 1e-6  # of the state scale and of the distance between the bounds
 
 
@@ -62,6 +63,7 @@ class TrimEquations:
             method="newton",
             tolerance=_TOLERANCE,
             max_iterations=_ITERATIONS,
+            callback=_give_up_creeping,
         )
         point, x0, _ = self._unpacked(u)
         return point, x0
@@ -113,3 +115,11 @@ class TrimEquations:
         if self._last is None or self._last[0] != key:
             self._last = key, self._model_at(point)
         return self._last[1]
+
+
+def _give_up_creeping(step: Iteration) -> None:
+    if step.damping < _LEAST_DAMPING:
+        raise OrbitError(
+            f"no trim found: the search creeps after {step.number} steps, at a residual of "
+            f"{step.residual:.3g}."
+        )
