@@ -10,7 +10,9 @@ from birdmb.studies.parameter_figures import plot_multiplier_locus, plot_perform
 from birdmb.studies.parameter_study import parameter_study
 from birdmb.studies.perturbed import flight_path, perturbed_flight
 from birdmb.studies.perturbed_figure import plot_perturbed_flight
-from birdmb.studies.trim import Trim, trim_flight
+from birdmb.studies.scaling import ScaledBird, scale_bird
+from birdmb.studies.tail_study import stability_openings, tail_study, within_rules
+from birdmb.studies.trim import Trim, TrimGuess, trim_flight
 from birdmb.studies.tunnel import tunnel_and_free_flight
 from birdmb.studies.tunnel_figure import plot_tunnel_and_free_flight
 from birdmb.studies.validity import Excess, TailExcess, Validity, assess_validity
@@ -18,9 +20,11 @@ from birdmb.studies.validity import Excess, TailExcess, Validity, assess_validit
 __all__ = [
     "Excess",
     "ModelFactory",
+    "ScaledBird",
     "TailExcess",
     "Trim",
     "TrimError",
+    "TrimGuess",
     "Validity",
     "assess_validity",
     "bird_branch",
@@ -35,6 +39,10 @@ __all__ = [
     "plot_performance",
     "plot_perturbed_flight",
     "plot_tunnel_and_free_flight",
+    "scale_bird",
+    "stability_openings",
+    "tail_study",
     "trim_flight",
     "tunnel_and_free_flight",
+    "within_rules",
 ]

@@ -4,11 +4,13 @@ import json
 import pickle
 from functools import partial
 
+import numpy as np
 import pytest
 
 import birdmb
 from birdmb.orbits import ArgumentError
 from birdmb.studies import TrimError, trim_flight
+from birdmb.studies.trim import TrimGuess
 from tests.conftest import REFERENCE
 
 AMPLITUDE, SHOULDER = "shoulder.flap.amplitude_deg", "wing.root.x"
@@ -34,8 +36,8 @@ def test_result_is_the_cycle_of_the_bird_it_names(coarse, quick):
     assert trim.cycles < 12
 
 
-def test_where_the_secant_method_leaves_the_bounds_brent_finds_the_trim(coarse, quick):
-    """Over these margins the climb rate rises, turns and falls: two trims, the nearer one."""
+def test_where_the_climb_rate_turns_there_are_two_trims(coarse, quick):
+    """Over these margins the climb rate rises, turns and falls: the one nearer to the start."""
     shoulder = {SHOULDER: (0.033, 0.06)}
     trim = trim_flight(coarse, shoulder, climb_rate=1.6, model=quick)
     assert trim.cycle.mean_climb_rate == pytest.approx(1.6, abs=1e-6)
@@ -94,3 +96,35 @@ def test_arguments_are_checked(coarse):
         trim_flight(coarse, {"shoulder.flapp.amplitude_deg": (30.0, 60.0)})
     with pytest.raises(birdmb.TopologyError):
         trim_flight(coarse, {"body.mass": (-1.0, 2.0)})
+
+
+@pytest.fixture(scope="module")
+def near_neutral(ibis_tail):
+    """A tail so far open that a multiplier is close to +1: cycles at given values fold."""
+    return ibis_tail.with_values({"wing.discretisation.elements": 8, "tail.opening_deg": 18.5})
+
+
+def test_trim_where_the_cycle_folds(near_neutral, quick):
+    trim = birdmb.trim_flight(near_neutral, model=quick)
+    assert trim.cycle.mean_climb_rate == pytest.approx(0.0, abs=1e-7)
+    assert np.abs(np.abs(trim.cycle.multipliers) - 1).min() < 0.05
+    assert list(trim.values) == ["forearm.roll.offset_deg"]
+
+
+def test_a_guess_changes_the_way_and_not_the_end(near_neutral, quick):
+    neighbour = birdmb.trim_flight(
+        near_neutral.with_values({"shoulder.flap.amplitude_deg": 41.0}), model=quick
+    )
+    guess = TrimGuess(neighbour.values, neighbour.cycle.x0)
+    from_guess = birdmb.trim_flight(near_neutral, model=quick, guess=guess)
+    alone = birdmb.trim_flight(near_neutral, model=quick)
+    assert from_guess.values == pytest.approx(alone.values, abs=1e-5)
+
+
+def test_multibody_bird_at_a_speed(near_neutral):
+    """Massive wings, both default parameters."""
+    trim = birdmb.trim_flight(near_neutral, speed=14.5, model=birdmb.MultibodyModel)
+    assert trim.cycle.mean_speed == pytest.approx(14.5, abs=1e-7)
+    assert trim.cycle.mean_climb_rate == pytest.approx(0.0, abs=1e-7)
+    assert len(trim.values) == 2
+    assert trim.cycle.model.bird.total_mass == pytest.approx(1.26)
