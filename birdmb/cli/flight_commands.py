@@ -5,7 +5,15 @@ from typing import Annotated
 
 import typer
 
-from birdmb.cli.options import Assignments, ModelChoice, ModelName, Topology
+from birdmb.cli.options import (
+    Assignments,
+    ClimbRate,
+    ModelChoice,
+    ModelName,
+    Speed,
+    Topology,
+    Workers,
+)
 from birdmb.cli.outcome import reported
 
 commands = typer.Typer()
@@ -29,13 +37,8 @@ def trim(
             "shoulder.flap.amplitude_deg=15:70 too",
         ),
     ] = None,
-    climb_rate: Annotated[
-        float, typer.Option(metavar="V", help="Climb rate to trim to, m/s.")
-    ] = 0.0,
-    speed: Annotated[
-        float | None,
-        typer.Option(metavar="V", help="Speed to trim to, m/s.", show_default="any"),
-    ] = None,
+    climb_rate: ClimbRate = 0.0,
+    speed: Speed = None,
     model: ModelChoice = ModelName.MULTIBODY,
     assignments: Assignments = None,
     out: Annotated[
@@ -80,12 +83,7 @@ def tail_study(
             min=1, metavar="N", help="Take one of N values; 5 is a coarse study of minutes."
         ),
     ] = 1,
-    workers: Annotated[
-        int | None,
-        typer.Option(
-            min=1, metavar="N", help="Processes that compute.", show_default="one for each core"
-        ),
-    ] = None,
+    workers: Workers = None,
     assignments: Assignments = None,
     out: Annotated[
         Path | None,

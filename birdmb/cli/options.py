@@ -58,3 +58,14 @@ StepsPerBeat = Annotated[
 Json = Annotated[
     bool, typer.Option("--json", help="Print one JSON object to standard output, no tables.")
 ]
+ClimbRate = Annotated[float, typer.Option(metavar="V", help="Climb rate to trim to, m/s.")]
+Speed = Annotated[
+    float | None,
+    typer.Option(metavar="V", help="Speed to trim to, m/s.", show_default="any"),
+]
+Workers = Annotated[
+    int | None,
+    typer.Option(
+        min=1, metavar="N", help="Processes that compute.", show_default="one for each core"
+    ),
+]

@@ -7,12 +7,15 @@ import typer
 
 from birdmb.cli.options import (
     Assignments,
+    ClimbRate,
     ModelChoice,
     ModelName,
     Segments,
+    Speed,
     StepsPerBeat,
     Tolerance,
     Topology,
+    Workers,
 )
 from birdmb.cli.outcome import reported
 
@@ -54,19 +57,9 @@ def sweep(
             "level flight, or as --climb-rate and --speed say. Twice if a speed is wanted.",
         ),
     ] = None,
-    climb_rate: Annotated[
-        float, typer.Option(metavar="V", help="Climb rate to trim to, m/s.")
-    ] = 0.0,
-    speed: Annotated[
-        float | None,
-        typer.Option(metavar="V", help="Speed to trim to, m/s.", show_default="any"),
-    ] = None,
-    workers: Annotated[
-        int | None,
-        typer.Option(
-            min=1, metavar="N", help="Processes that compute.", show_default="one for each core"
-        ),
-    ] = None,
+    climb_rate: ClimbRate = 0.0,
+    speed: Speed = None,
+    workers: Workers = None,
     model: ModelChoice = ModelName.MULTIBODY,
     assignments: Assignments = None,
     segments: Segments = 1,
