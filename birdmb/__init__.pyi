@@ -41,7 +41,7 @@ from .studies import (
 from .studies.branch import bird_branch
 from .studies.scaling import ScaledBird, scale_bird
 from .studies.sweeps import Study, SweepError, Trimming, sweep
-from .studies.tail_study import stability_openings, tail_study
+from .studies.tail import stability_openings, tail_study
 from .topology import Bird, load_bird
 
 __all__ = [

@@ -5,19 +5,27 @@ from __future__ import annotations
 from functools import partial
 from pathlib import Path
 
+import numpy as np
 import typer
 from rich.console import Console
 
 from birdmb.cli.files import prepare, write_whole
 from birdmb.cli.progress import Progress
 from birdmb.cli.sweep import SweepProgress
+from birdmb.studies.tail import (
+    SWEEP,
+    PriceOfStability,
+    price_of_stability,
+    stability_openings,
+    tail_study,
+    within_rules,
+)
 from birdmb.studies.tail_figures import (
     plot_envelope,
     plot_manifold,
     plot_pareto,
     plot_stability_openings,
 )
-from birdmb.studies.tail_study import SWEEP, stability_openings, tail_study, within_rules
 from birdmb.topology import Bird
 
 _DPI = 150
@@ -41,6 +49,8 @@ def run(bird: Bird, store: Path, *, every: int, workers: int | None, out: Path |
         f"{int(allowed.sum())} within the rules, {int(stable.sum())} of these stable; "
         f"{study.total / seconds:.2f} flights per second and core."
     )
+    for row in price_of_stability(data):
+        typer.echo(_priced(row))
     if out is None:
         return
     figures = {
@@ -69,3 +79,13 @@ def run(bird: Bird, store: Path, *, every: int, workers: int | None, out: Path |
             )
         if not each.curves:
             typer.echo(f"sweep offset {each.sweep:g}: no level flight changes stability")
+
+
+def _priced(row: PriceOfStability) -> str:
+    least = f"{row.slowest:g} to {row.fastest:g} m/s: cost of transport {row.cheapest:.5f} at least"
+    if np.isnan(row.opening):
+        return f"{least}, and no stable flight"
+    more = row.cheapest_stable / row.cheapest - 1.0
+    return (
+        f"{least}, {row.cheapest_stable:.5f} if stable ({more:+.2%}), tail open {row.opening:g} deg"
+    )

@@ -11,7 +11,7 @@ from birdmb.studies.parameter_study import parameter_study
 from birdmb.studies.perturbed import flight_path, perturbed_flight
 from birdmb.studies.perturbed_figure import plot_perturbed_flight
 from birdmb.studies.scaling import ScaledBird, scale_bird
-from birdmb.studies.tail_study import stability_openings, tail_study, within_rules
+from birdmb.studies.tail import stability_openings, tail_study, within_rules
 from birdmb.studies.trim import Trim, TrimGuess, trim_flight
 from birdmb.studies.tunnel import tunnel_and_free_flight
 from birdmb.studies.tunnel_figure import plot_tunnel_and_free_flight

@@ -12,7 +12,7 @@ from matplotlib.colors import Normalize, TwoSlopeNorm
 from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
-from birdmb.studies.tail_study import (
+from birdmb.studies.tail import (
     AMPLITUDE,
     OPENING,
     SWEEP,
@@ -53,7 +53,7 @@ def plot_manifold(data: xr.Dataset) -> Figure:
             )
             _exclude(axes, data, ~allowed.sel(at) & np.isfinite(modulus.sel(at)))
             axes.set_facecolor("0.85")
-            if row is rows[0]:
+            if name is quantities[0][0]:
                 axes.set_title(f"sweep offset {offset:g}°".replace("-", "−"), fontsize="medium")
         row[0].set_ylabel("flap amplitude (°)")
         figure.colorbar(mesh, ax=row.tolist(), label=name, extend="both")

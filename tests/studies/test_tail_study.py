@@ -7,14 +7,14 @@ import pytest
 import xarray as xr
 
 import birdmb
-from birdmb.studies import tail_study as study
+from birdmb.studies import tail as study
+from birdmb.studies.tail import AMPLITUDE, OPENING, ROLL, SWEEP
 from birdmb.studies.tail_figures import (
     plot_envelope,
     plot_manifold,
     plot_pareto,
     plot_stability_openings,
 )
-from birdmb.studies.tail_study import AMPLITUDE, OPENING, ROLL, SWEEP
 
 
 @pytest.fixture(scope="module")
@@ -86,6 +86,26 @@ def test_pareto_front():
     modulus = np.array([1.3, 1.0, 1.1, 0.5, 1.2, 1.0, 1.4])
     assert study.pareto_front(cost, modulus).tolist() == [0, 2, 1]
     assert study.pareto_front(np.array([np.nan]), np.array([1.0])).size == 0
+
+
+def test_price_of_stability():
+    """Two ranges of speed: in the first stability costs a tenth, in the second there is none."""
+    dims = (SWEEP, OPENING)
+    grid = {
+        "cost_of_transport": [[1.0, 1.1], [2.0, 0.1]],
+        "mean_speed": [[10.2, 10.9], [11.5, 11.6]],
+        "largest_modulus": [[1.2, 0.9], [1.1, 0.9]],
+        "mean_pitch": [[0.0, 0.0], [0.0, 0.5]],  # rad; the last one is excluded
+        ROLL: [[0.0, 0.0], [0.0, 0.0]],
+    }
+    data = xr.Dataset(
+        {name: (dims, np.array(values)) for name, values in grid.items()},
+        coords={SWEEP: [-15.0, -14.0], OPENING: [0.0, 30.0]},
+    )
+    slow, fast = study.price_of_stability(data)
+    assert (slow.slowest, slow.cheapest, slow.cheapest_stable, slow.opening) == (10, 1.0, 1.1, 30)
+    assert (fast.slowest, fast.cheapest) == (11, 2.0)
+    assert np.isnan([fast.cheapest_stable, fast.opening]).all()
 
 
 def test_stability_openings(bird):

@@ -102,6 +102,51 @@ def pareto_front(cost: FloatArray, modulus: FloatArray) -> FloatArray:
 
 
 @dataclass(frozen=True)
+class PriceOfStability:
+    """The cheapest flights in a range of speed: of all, and of the stable ones.
+
+    Attributes:
+        slowest, fastest: the range, m/s.
+        cheapest: least cost of transport within the rules.
+        cheapest_stable: the same of the flights with |Lambda|max < 1; NaN if there are none.
+        opening: of the tail at the cheapest stable flight, degrees.
+    """
+
+    slowest: float
+    fastest: float
+    cheapest: float
+    cheapest_stable: float
+    opening: float
+
+
+def price_of_stability(data: xr.Dataset, width: float = 1.0) -> tuple[PriceOfStability, ...]:
+    """Compare the cheapest flights of a study with the cheapest stable ones, speed by speed.
+
+    `width` (m/s) is that of the ranges of speed.
+    """
+    kept = data.where(within_rules(data))
+    cost, speed = kept["cost_of_transport"], kept["mean_speed"].values.ravel()
+    openings = data[OPENING].broadcast_like(cost).transpose(*cost.dims).values.ravel()
+    costs = cost.values.ravel()
+    stable = (kept["largest_modulus"] < 1.0).values.ravel()
+    rows = []
+    for place in np.unique(np.floor(speed[np.isfinite(speed)] / width)):
+        here = np.floor(speed / width) == place
+        steady = np.flatnonzero(here & stable)
+        best = steady[np.argmin(costs[steady])] if steady.size else None
+        rows.append(
+            PriceOfStability(
+                slowest=float(place * width),
+                fastest=float((place + 1) * width),
+                cheapest=float(costs[here].min()),
+                cheapest_stable=np.nan if best is None else float(costs[best]),
+                opening=np.nan if best is None else float(openings[best]),
+            )
+        )
+    return tuple(rows)
+
+
+@dataclass(frozen=True)
 class StabilityOpening:
     """Where |Lambda|max = 1 on level flights, over flap amplitude and opening, at one sweep offset.
 
