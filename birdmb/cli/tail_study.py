@@ -26,6 +26,7 @@ from birdmb.studies.tail_figures import (
     plot_pareto,
     plot_stability_openings,
 )
+from birdmb.studies.validity import LARGEST_TAIL_ANGLE
 from birdmb.topology import Bird
 
 _DPI = 150
@@ -48,6 +49,13 @@ def run(bird: Bird, store: Path, *, every: int, workers: int | None, out: Path |
         f"{store}: {study.total} gaits and openings, {int(found.sum())} of them fly level, "
         f"{int(allowed.sum())} within the rules, {int(stable.sum())} of these stable; "
         f"{study.total / seconds:.2f} flights per second and core."
+    )
+    beyond = stable & (data["largest_tail_angle"] > LARGEST_TAIL_ANGLE)
+    climb, error = abs(data["climb_rate"]), data["integration_error"].where(allowed)
+    typer.echo(
+        f"Level to {float(climb.max()):.1e} m/s; largest error of a beat within the rules "
+        f"{float(error.max()):.1e} of the state scale; {int(beyond.sum())} of the stable flights "
+        f"have the tail beyond {np.degrees(LARGEST_TAIL_ANGLE):g} deg."
     )
     for row in price_of_stability(data):
         typer.echo(_priced(row))
