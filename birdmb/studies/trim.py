@@ -40,6 +40,7 @@ class Trim:
         values: the values found, by dotted name.
         residual: largest difference from a target, m/s.
         cycles: how many limit cycles were computed on the way.
+        from_guess: whether the search succeeded from the guess that it was given.
     """
 
     bird: Bird
@@ -47,6 +48,7 @@ class Trim:
     values: dict[str, float]
     residual: float
     cycles: int
+    from_guess: bool
 
 
 @dataclass(frozen=True)
@@ -110,10 +112,12 @@ def trim_flight(
         if not (np.isfinite([low, high]).all() and low < high):
             raise ArgumentError(f"the bounds of {name} must be ascending, not {low} and {high}.")
     trials = TrimSearch(bird, parameters, targets, model, tolerance, search or {})
+    from_guess = guess is not None
     with suppress(Trimmed):
         if guess is not None:
             point = np.array([guess.values[name] for name in trials.names])
             _solve_together(trials, point, guess.x0)
+        from_guess = False
         _solve_together(trials, trials.start, None)
         if guess is None:
             with suppress(OrbitError, StateError):
@@ -122,19 +126,21 @@ def trim_flight(
             _solve_one(trials)
         elif guess is None:
             _solve_two(trials)
-    return _result(trials)
+    return _result(trials, from_guess)
 
 
 def _solve_together(search: TrimSearch, point: FloatArray, x0: npt.ArrayLike | None) -> None:
     """Raise `Trimmed` if Newton's method finds a trim from this point and state (n,).
 
-    The state by default: forward flight. That it fails is no error: there are other places.
+    The state by default: forward flight. Where it fails there are other places to start from.
     """
-    with suppress(OrbitError, StateError):
+    try:
         start = search.forward_flight() if x0 is None else np.asarray(x0, dtype=float)
         found, state = search.equations.solve(point, start)
         search.start_from(state)
         search.differences(found)
+    except (OrbitError, StateError) as error:
+        search.failed_together(error)
 
 
 def _solve_one(search: TrimSearch) -> None:
@@ -178,7 +184,7 @@ def _solve_two(search: TrimSearch) -> None:
             least_squares(differences, start, jac=jacobian, bounds=(0.0, 1.0), max_nfev=_STEPS)
 
 
-def _result(search: TrimSearch) -> Trim:
+def _result(search: TrimSearch, from_guess: bool) -> Trim:
     best = search.best
     if best is None:
         raise TrimError(search.nothing_found(), {}, {})
@@ -187,4 +193,4 @@ def _result(search: TrimSearch) -> Trim:
         raise TrimError(search.not_trimmed(best), values, best.reached)
     residual = float(np.abs(best.differences).max())
     bird = search.bird.with_values(values)
-    return Trim(bird, best.cycle, values, residual, len(search.found))
+    return Trim(bird, best.cycle, values, residual, len(search.found), from_guess)

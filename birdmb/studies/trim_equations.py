@@ -120,6 +120,5 @@ class TrimEquations:
 def _give_up_creeping(step: Iteration) -> None:
     if step.damping < _LEAST_DAMPING:
         raise OrbitError(
-            f"no trim found: the search creeps after {step.number} steps, at a residual of "
-            f"{step.residual:.3g}."
+            f"the search creeps after {step.number} steps, at a residual of {step.residual:.3g}."
         )

@@ -66,6 +66,7 @@ class TrimSearch:
         self._cycle = WarmCycles(bird, model, options)
         self.found: dict[tuple[float, ...], Trial] = {}
         self._failures: dict[tuple[float, ...], str] = {}
+        self._failure_together = ""
 
     def differences(self, point: FloatArray) -> FloatArray:
         """Reached minus wanted (k,), m/s.
@@ -122,6 +123,10 @@ class TrimSearch:
             return self.found[tuple(point.tolist())].cycle.x0
         return cast("HasInitialGuess", self._model_at(point)).initial_guess()
 
+    def failed_together(self, error: Exception) -> None:
+        """Keep why closure and targets could not be met together; the last reason counts."""
+        self._failure_together = str(error)
+
     def start_from(self, x0: FloatArray) -> None:
         """Start the search for the next limit cycle from a state (n,)."""
         self._cycle.start_from(x0, None)
@@ -154,7 +159,10 @@ class TrimSearch:
 
     def nothing_found(self) -> str:
         """Say that there was no limit cycle to judge."""
-        return f"{self.bird.name}: no trim for {self._bounds()}{self._first_failure()}."
+        why = self._first_failure()
+        if not why and self._failure_together:
+            why = f"; {self._failure_together.rstrip('.')}"
+        return f"{self.bird.name}: no trim for {self._bounds()}{why}."
 
     def _bounds(self) -> str:
         return " and ".join(

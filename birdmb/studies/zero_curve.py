@@ -126,8 +126,8 @@ def _on_line(
         found = root_scalar(at, x0=0.0, x1=x1, method="secant", xtol=tolerance, maxiter=20)
     except ValueError:
         # Where it is steep the secant overshoots; between two signs it cannot.
-        here, end = at(0.0), reach * np.linspace(-1.0, 1.0, 2)
-        beyond = [e for e in end if at(float(e)) * here < 0]
+        here = at(0.0)
+        beyond = [end for end in (-reach, reach) if at(end) * here < 0]
         if not beyond:
             raise
         found = root_scalar(at, bracket=(0.0, beyond[0]), method="brentq", xtol=tolerance)

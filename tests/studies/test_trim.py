@@ -119,6 +119,21 @@ def test_a_guess_changes_the_way_and_not_the_end(near_neutral, quick):
     from_guess = birdmb.trim_flight(near_neutral, model=quick, guess=guess)
     alone = birdmb.trim_flight(near_neutral, model=quick)
     assert from_guess.values == pytest.approx(alone.values, abs=1e-5)
+    assert (from_guess.from_guess, alone.from_guess) == (True, False)
+
+
+def test_a_guess_that_leads_nowhere_is_not_named(near_neutral, quick):
+    lost = TrimGuess({"forearm.roll.offset_deg": -29.0}, [2.0, 30.0, 5.0, 3.0])
+    trim = birdmb.trim_flight(near_neutral, model=quick, guess=lost)
+    assert not trim.from_guess
+    assert trim.residual <= 1e-7
+
+
+def test_without_any_flight_the_reason_is_told(near_neutral, quick):
+    """From a guess there is no search over the bounds, whose failures tell otherwise."""
+    weak = near_neutral.with_values({"shoulder.flap.amplitude_deg": 5.0})
+    with pytest.raises(TrimError, match=r"no trim for .*; .*(creeps|No orbit found)"):
+        birdmb.trim_flight(weak, model=quick, guess=TrimGuess({"forearm.roll.offset_deg": 0.0}))
 
 
 def test_multibody_bird_at_a_speed(near_neutral):

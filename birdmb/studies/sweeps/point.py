@@ -135,7 +135,7 @@ def _trimmed(task: Task, trimming: Trimming) -> tuple[dict[str, Any], str]:
         search=asdict(task.search),
     )
     result = described(trim.cycle) | {"trimmed": trim.values}
-    return result, COLD if guess is None else guess.place
+    return result, guess.place if guess is not None and trim.from_guess else COLD
 
 
 def described(cycle: FlightCycle) -> dict[str, Any]:
