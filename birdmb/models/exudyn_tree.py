@@ -19,15 +19,19 @@ from exudyn.itemInterface import NodeGenericODE2, ObjectGenericODE2, ObjectKinem
 from scipy.spatial.transform import Rotation
 
 from birdmb._typing import BoolArray, FloatArray
-from birdmb.errors import BirdmbError
+from birdmb.errors import StateError
+from birdmb.models.compiled_calls import Carrier, calls_compiled_code
 from birdmb.models.feather_rods import FeatherRod, feather_rods
 from birdmb.topology import BONES, Bird
 
 BODY_COORDINATES = 3
-DRIVEN_INERTIA = 1e12
+# Of the bird's own: a prescribed joint strays by one part of this, and round-off does not matter.
+_DRIVEN_INERTIA = 1e13
 _NEXT_TO_NO_MASS = 1e-30
 _MIRROR = np.diag([1.0, -1.0, 1.0])
 _SPAN = np.array([0.0, 1.0, 0.0])
+_MASS_MATRIX = exu.ComputeItemType.MassMatrix
+_LEFT_HAND_SIDE = exu.ComputeItemType.ODE2LHS
 
 # (t, coordinates, velocities) -> generalised forces or accelerations, all (n,)
 CoordinateFunction = Callable[[float, FloatArray, FloatArray], FloatArray]
@@ -151,7 +155,7 @@ class ExudynBird:
         prescribed: BoolArray,
         driver: TimeFunction,
     ) -> None:
-        self._failures: list[BirdmbError | KeyboardInterrupt] = []
+        self._carrier = Carrier()
         links = bird_links(bird)
         n = self.size = len(links)
         self._container = exu.SystemContainer()
@@ -168,21 +172,10 @@ class ExudynBird:
 
         # Exudyn keeps these functions out of the garbage collector's sight: what they held
         # strongly, this object or the model, would never be freed.
-        call_forces, call_driver, failures = _weakly(forces), _weakly(driver), self._failures
+        call_forces, call_driver = _weakly(forces), _weakly(driver)
 
-        def tree_forces(
-            _mbs: object, t: float, _item: int, q: Sequence[float], v: Sequence[float]
-        ) -> FloatArray:
-            if not failures:
-                try:
-                    return call_forces()(t, np.array(q), np.array(v))
-                except (BirdmbError, KeyboardInterrupt) as error:
-                    # Exudyn would rewrap it and print a banner; it is raised again afterwards.
-                    failures.append(error)
-                except (np.linalg.LinAlgError, ZeroDivisionError):
-                    # The motion runs away and overflows: let it end as not finite.
-                    pass
-            return np.full(n, np.nan)
+        def tree_forces(t: float, _item: int, q: Sequence[float], v: Sequence[float]) -> FloatArray:
+            return call_forces()(t, np.array(q), np.array(v))
 
         self.tree = self.mbs.AddObject(
             ObjectKinematicTree(
@@ -195,13 +188,13 @@ class ExudynBird:
                 linkCOMs=exu.Vector3DList([link.centre for link in links]),
                 linkMasses=[link.mass for link in links],
                 gravity=[0.0, 0.0, bird.gravity],
-                forceUserFunction=tree_forces,
+                forceUserFunction=self._carrier.callback(tree_forces, n),
             )
         )
-        inertia = np.where(prescribed, DRIVEN_INERTIA, 0.0)
+        inertia = np.where(prescribed, _DRIVEN_INERTIA * typical_inertias(bird, n), 0.0)
 
         def driving_forces(
-            _mbs: object, t: float, _item: int, _q: Sequence[float], _v: Sequence[float]
+            t: float, _item: int, _q: Sequence[float], _v: Sequence[float]
         ) -> FloatArray:
             return inertia * call_driver()(t)
 
@@ -210,18 +203,19 @@ class ExudynBird:
                 ObjectGenericODE2(
                     nodeNumbers=[node],
                     massMatrix=np.diag(inertia),
-                    forceUserFunction=driving_forces,
+                    forceUserFunction=self._carrier.callback(driving_forces, n),
                 )
             )
         self.mbs.Assemble()
         self._settings = _quiet_settings()
 
+    @calls_compiled_code
     def integrate(
         self, q: FloatArray, v: FloatArray, t0: float, t1: float, steps: int
     ) -> tuple[FloatArray, FloatArray]:
         """Coordinates and velocities (n,) at t1 after `steps` steps of RK67 (order 6) from t0.
 
-        Not finite where the motion diverges. Raises what `forces` raised.
+        Not finite where the motion diverges. Raises what `forces` and `driver` raised.
         """
         data = self.mbs.systemData
         initial = exu.ConfigurationType.Initial
@@ -229,29 +223,48 @@ class ExudynBird:
         data.SetODE2Coordinates_t(v, initial)
         time = self._settings.timeIntegration
         time.startTime, time.endTime, time.numberOfSteps = t0, t1, steps
-        self.mbs.SolveDynamic(
-            self._settings, solverType=exu.DynamicSolverType.RK67, storeSolver=False
+        self._call(
+            self.mbs.SolveDynamic,
+            self._settings,
+            solverType=exu.DynamicSolverType.RK67,
+            storeSolver=False,
         )
-        self._raise_failure()
         return np.array(data.GetODE2Coordinates()), np.array(data.GetODE2Coordinates_t())
 
+    @calls_compiled_code
     def mass_and_forces(
         self, t: float, q: FloatArray, v: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Mass matrix M (n, n) and left-hand side L (n,), for which M q'' + L = actuator forces."""
+        """Mass matrix M (n, n) and left-hand side L (n,), for which M q'' + L = actuator forces.
+
+        Raises what `forces` raised.
+        """
+        mass = self.mass(t, q, v)
+        return mass, np.array(self._call(self.mbs.ComputeItem, self.tree, _LEFT_HAND_SIDE))
+
+    @calls_compiled_code
+    def mass(self, t: float, q: FloatArray, v: FloatArray) -> FloatArray:
+        """Mass matrix (n, n)."""
         data = self.mbs.systemData
         current = exu.ConfigurationType.Current
         data.SetODE2Coordinates(q, current)
         data.SetODE2Coordinates_t(v, current)
         data.SetTime(t, current)
-        mass = self.mbs.ComputeItem(self.tree, exu.ComputeItemType.MassMatrix)
-        left = self.mbs.ComputeItem(self.tree, exu.ComputeItemType.ODE2LHS)
-        self._raise_failure()
-        return np.array(mass), np.array(left)
+        return np.array(self._call(self.mbs.ComputeItem, self.tree, _MASS_MATRIX))
 
-    def _raise_failure(self) -> None:
-        if self._failures:
-            raise self._failures.pop()
+    def _call(self, compiled: Callable[..., Any], *args: Any, **options: Any) -> Any:
+        try:
+            return self._carrier.call(compiled, *args, **options)
+        except exu.ExudynError as error:
+            raise StateError(f"Exudyn stopped: {' '.join(str(error).split())}") from error
+
+
+def typical_inertias(bird: Bird, size: int) -> FloatArray:
+    """Mass (kg) or moment of inertia (kg m2) that is typical of each coordinate, (size,)."""
+    length = sum(getattr(bird.segments, bone).length for bone in BONES)
+    typical = np.full(size, bird.total_mass * length**2)
+    typical[:2] = bird.total_mass
+    return typical
 
 
 def _weakly(function: Function) -> Callable[[], Function]:

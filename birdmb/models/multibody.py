@@ -1,7 +1,7 @@
 """The multibody bird in Exudyn, its joints prescribed or compliant (docs/model.md, section 7)."""
 
-from functools import cached_property, lru_cache
-from typing import Any, Literal, NamedTuple, Self
+from functools import cached_property
+from typing import Any, Literal, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -9,11 +9,15 @@ import numpy.typing as npt
 from birdmb._typing import BoolArray, FloatArray
 from birdmb.aerodynamics.prescribed import driven
 from birdmb.errors import StateError
-from birdmb.models.exudyn_tree import BODY_COORDINATES, ExudynBird
+from birdmb.models.compiled_calls import COMPILED, calls_compiled_code
+from birdmb.models.determinacy import refuse_undetermined
+from birdmb.models.exudyn_tree import BODY_COORDINATES, ExudynBird, typical_inertias
+from birdmb.models.failures import lifting_line_lost, overflow_told
 from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.gusts import Gust
 from birdmb.models.implicit import integrate_implicitly
+from birdmb.models.instants import Instant, Instants
 from birdmb.models.integration import Integration, Integrator, integration_for
 from birdmb.models.multibody_kernel import air_forces, body_velocity
 from birdmb.models.rigid import RigidModel
@@ -23,30 +27,13 @@ from birdmb.models.wing_model import (
     BODY_STATES,
     BODY_UNITS,
     WingModel,
-    lifting_line_lost,
 )
 from birdmb.orbits import LimitCycle
 from birdmb.topology import Bird
 from birdmb.wing.shape import WingShape, wing_shape
 
-_INSTANTS_KEPT = 8192
 _JOINT_SCALE = (0.5, 10.0)  # rad, rad/s
 _BEATS_TO_SETTLE = 6
-
-
-class Instant(NamedTuple):
-    """What an instant alone determines."""
-
-    angles: FloatArray  # (A,) rad, of the drivers
-    rates: FloatArray  # (A,) rad/s
-    accelerations: FloatArray  # (n,) of the drivers, 0 for the body
-    shape: WingShape | None  # with the joints that turn the wing as a whole at zero
-
-
-@lru_cache(maxsize=2)
-def _kept_instants(_key: tuple[object, ...]) -> dict[float, Instant]:
-    """The instants made so far, by time (s), of all models with the same wing and drivers."""
-    return {}
 
 
 class MultibodyModel(WingModel):
@@ -92,7 +79,10 @@ class MultibodyModel(WingModel):
         self._compliant = np.array(compliant + [True] * len(hinges), dtype=bool)
         self._springs = Springs(bird)
         self.turning = self._joints_that_turn_the_wing_as_a_whole()
-        self._instants = _kept_instants(self._what_instants_depend_on())
+        self.prescribed = self._follow_drivers()
+        self._exudyn = self._assembled()
+        self._integration: Integration | None = None
+        self._instants = Instants(bird, self.wing, self.discretisation, self.turning)
 
     def _options(self) -> dict[str, Any]:
         return {**super()._options(), "integrator": self._integrator}
@@ -100,9 +90,17 @@ class MultibodyModel(WingModel):
     def _altered(self, **options: Any) -> Self:
         return super()._altered(**{"integrator": self.integration.method, **options})
 
-    @cached_property
+    @property
     def integration(self) -> Integration:
         """Method and steps per beat: as wanted, or as the fastest joint motion needs."""
+        # Not a cached property: its lock, taken before the one of the calls, could wait for ever.
+        with COMPILED:
+            if self._integration is None:
+                self._integration = self._chosen_integration()
+            return self._integration
+
+    @calls_compiled_code
+    def _chosen_integration(self) -> Integration:
         if not self._compliant.any() and self._integrator == "auto":
             return Integration("explicit", super().steps_per_beat)
         return integration_for(self, self._steps_wanted, self._integrator)
@@ -139,6 +137,7 @@ class MultibodyModel(WingModel):
         """State (n,) at t1 (s) of the flight through x0 (n,) at t0; raises `StateError`."""
         return self._advanced(np.asarray(x0, dtype=float), t0, t1, self._steps(t0, t1))
 
+    @calls_compiled_code
     def trajectory(
         self, x0: npt.ArrayLike, t0: float, t1: float, times: npt.ArrayLike | None = None
     ) -> Flight:
@@ -154,6 +153,7 @@ class MultibodyModel(WingModel):
         flight = Flight(self.state_names, grid, states, rates)
         return flight if times is None else flight.at(times)
 
+    @calls_compiled_code
     def _advanced(self, x: FloatArray, t0: float, t1: float, steps: int) -> FloatArray:
         if self.integration.method == "implicit":
             return integrate_implicitly(self.rhs, x, t0, t1, steps, self.state_scale)
@@ -176,6 +176,7 @@ class MultibodyModel(WingModel):
             [np.asarray(body)[: self._body_states], np.column_stack([angles, rates]).ravel()]
         )
 
+    @calls_compiled_code
     def accelerations(self, t: float, x: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Accelerations (n,) of all coordinates and the actuators' forces (n,) on them.
 
@@ -187,9 +188,10 @@ class MultibodyModel(WingModel):
         mass, left = self._exudyn.mass_and_forces(t, q, v)
         a = self.driver_accelerations(t).copy()
         free = ~self.prescribed
-        a[free] = np.linalg.solve(
-            mass[np.ix_(free, free)], -left[free] - mass[np.ix_(free, ~free)] @ a[~free]
-        )
+        with overflow_told(self.bird, f"the acceleration at t = {t:.4g} s"):
+            a[free] = np.linalg.solve(
+                mass[np.ix_(free, free)], -left[free] - mass[np.ix_(free, ~free)] @ a[~free]
+            )
         forces = np.where(free, 0.0, mass @ a + left)
         return a, forces
 
@@ -224,16 +226,31 @@ class MultibodyModel(WingModel):
     def _trim(self) -> FloatArray:
         return RigidModel(self.bird).initial_guess()
 
-    @cached_property
-    def prescribed(self) -> BoolArray:
+    def _follow_drivers(self) -> BoolArray:
         """Which of the tree's coordinates (n,) follow a driver."""
         body = np.full(BODY_COORDINATES, self._body_states == 0)
         joints = ~self._compliant
         return np.concatenate([body, joints, joints])
 
-    @cached_property
-    def _exudyn(self) -> ExudynBird:
-        return ExudynBird(self.bird, self._forces, self.prescribed, self.driver_accelerations)
+    def _assembled(self) -> ExudynBird:
+        tree = ExudynBird(self.bird, self._forces, self.prescribed, self.driver_accelerations)
+        if self._compliant.any():
+            angles, _, _ = driven(self.wing, 0.0)
+            q = np.concatenate([np.zeros(BODY_COORDINATES), angles, angles])
+            self._refuse_undetermined(tree.mass(0.0, q, np.zeros_like(q)))
+        return tree
+
+    def _refuse_undetermined(self, mass: FloatArray) -> None:
+        """Raise `TopologyError` if this mass matrix (n, n) leaves a compliant joint at will."""
+        free = ~self.prescribed
+        names = ("X", "Z", "pitch", *self.bird.angle_names, *self.bird.angle_names)
+        with overflow_told(self.bird, "the mass matrix"):
+            refuse_undetermined(
+                self.bird,
+                mass[np.ix_(free, free)],
+                typical_inertias(self.bird, free.size)[free],
+                [name for name, is_free in zip(names, free, strict=True) if is_free],
+            )
 
     def coordinates(self, t: float, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Coordinates and velocities (n,) of the tree, with X = Z = 0, of state x at time t."""
@@ -267,41 +284,8 @@ class MultibodyModel(WingModel):
         return shoulder if not self.wing.twist[:shoulder].any() else 0
 
     def instant(self, t: float) -> Instant:
-        """What time t (s) alone determines.
-
-        Kept, for every trajectory and every perturbation of it asks for the same instants again, as
-        do birds that differ in masses, springs and dampers alone.
-        """
-        instant = self._instants.get(t)
-        if instant is None:
-            if len(self._instants) >= _INSTANTS_KEPT:
-                self._instants.clear()
-            instant = self._instants[t] = self._make_instant(t)
-        return instant
-
-    def _what_instants_depend_on(self) -> tuple[object, ...]:
-        wing = (np.asarray(part) for part in self.wing)
-        return self.turning, self.discretisation, *((part.shape, part.tobytes()) for part in wing)
-
-    def _make_instant(self, t: float) -> Instant:
-        angles, rates, accelerations = driven(self.wing, t)
-        shape = None
-        if self.turning:
-            still = np.arange(angles.size) < self.turning
-            shape = wing_shape(
-                self.wing,
-                np.where(still, 0.0, angles),
-                np.where(still, 0.0, rates),
-                *self.discretisation,
-            )
-            if not shape.converged:
-                raise lifting_line_lost(self.bird, t, angles)
-        return Instant(
-            angles,
-            rates,
-            np.concatenate([np.zeros(BODY_COORDINATES), accelerations, accelerations]),
-            shape,
-        )
+        """What time t (s) alone determines."""
+        return self._instants.at(t)
 
     def _shape(self, t: float, angles: FloatArray, rates: FloatArray) -> WingShape:
         shape = wing_shape(self.wing, angles, rates, *self.discretisation)
@@ -318,18 +302,19 @@ class MultibodyModel(WingModel):
         rates = v[BODY_COORDINATES : BODY_COORDINATES + joints]
         instant = self.instant(t)
         forward, down = self.air_velocity(t)
-        body, torques = air_forces(
-            self.wing,
-            instant.shape or self._shape(t, angles, rates),
-            self.turning,
-            angles,
-            rates,
-            self.airframe,
-            q[2],
-            v[0] - forward,
-            v[1] - down,
-            v[2],
-        )
+        with overflow_told(self.bird, f"the force of the air at t = {t:.4g} s"):
+            body, torques = air_forces(
+                self.wing,
+                instant.shape or self._shape(t, angles, rates),
+                self.turning,
+                angles,
+                rates,
+                self.airframe,
+                q[2],
+                v[0] - forward,
+                v[1] - down,
+                v[2],
+            )
         torques += self._spring_torques(instant, angles, rates)
         return np.concatenate([body, torques, torques])
 
@@ -377,6 +362,7 @@ class TetheredModel(MultibodyModel):
     ) -> None:
         super().__init__(bird, steps_per_beat=steps_per_beat, integrator=integrator, gust=gust)
         self._held = np.array(body_state, dtype=float)
+        self._held.flags.writeable = False
         if self._held.shape != (4,) or self._held[2] != 0.0:
             raise ValueError(
                 "body_state must be u, w, q, theta with q = 0: a held body cannot turn."

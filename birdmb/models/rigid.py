@@ -13,6 +13,7 @@ from birdmb.aerodynamics.prescribed import (
     prescribed_wing,
 )
 from birdmb.errors import StateError
+from birdmb.models.failures import lifting_line_lost, overflow_told
 from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.gusts import Gust
@@ -24,7 +25,6 @@ from birdmb.models.wing_model import (
     BODY_UNITS,
     STEPS_PER_BEAT,
     WingModel,
-    lifting_line_lost,
 )
 from birdmb.topology import Bird
 
@@ -118,21 +118,21 @@ class RigidModel(WingModel):
     @cached_property
     def _first_guess(self) -> FloatArray:
         times = np.linspace(0.0, self.bird.period, 17)[:-1]
-        wing = prescribed_wing(self.wing, self.airframe.tail, times, *self.discretisation)
-        return mean_trim(self.bird, wing, self.airframe)
+        with overflow_told(self.bird, "the flight in which the mean loads balance"):
+            wing = prescribed_wing(self.wing, self.airframe.tail, times, *self.discretisation)
+            return mean_trim(self.bird, wing, self.airframe)
 
     def _integrate(
         self, x0: npt.ArrayLike, t0: float, t1: float
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         steps = self._steps(t0, t1)
         start = np.asarray(x0, dtype=float)
-        found = integrate_rigid(
+        table, gusts = (
             self._table(t0 % self.bird.period, t1 - t0, steps),
-            start,
-            (t1 - t0) / steps,
             self._gusts(t0, t1, 2 * steps),
-            *self._constants,
         )
+        with overflow_told(self.bird, f"the flight from t = {t0:.4g} to {t1:.4g} s"):
+            found = integrate_rigid(table, start, (t1 - t0) / steps, gusts, *self._constants)
         if not np.isfinite(found[0]).all():
             raise StateError(
                 f"{self.bird.name}: the flight from t = {t0:.4g} s diverged before "
@@ -151,15 +151,17 @@ class RigidModel(WingModel):
     def _table(self, t0: float, duration: float, steps: int) -> PrescribedWing:
         """The wing at every half step from t0 on; kept, for flows ask for the same ones again."""
         key = (t0, duration, steps)
-        if key not in self._tables:
+        table = self._tables.get(key)
+        if table is None:
             if len(self._tables) >= _TABLES_KEPT:
                 self._tables.clear()
-            self._tables[key] = self._tabulate(*key)
-        return self._tables[key]
+            table = self._tables[key] = self._tabulate(*key)
+        return table
 
     def _tabulate(self, t0: float, duration: float, steps: int) -> PrescribedWing:
         times = t0 + duration * np.arange(2 * steps + 1) / max(2 * steps, 1)
-        wing = prescribed_wing(self.wing, self.airframe.tail, times, *self.discretisation)
+        with overflow_told(self.bird, "the wing's circulation"):
+            wing = prescribed_wing(self.wing, self.airframe.tail, times, *self.discretisation)
         if not wing.converged.all():
             t = float(times[np.argmin(wing.converged)])
             raise lifting_line_lost(self.bird, t, driven(self.wing, t)[0])

@@ -48,9 +48,12 @@ def mean_trim(bird: Bird, wing: PrescribedWing, frame: Airframe) -> FloatArray:
 
     trials = []
     for u in (12.0, 20.0, 7.0, 35.0):
+        start = np.array([u, -0.05 * u, 0.0])
+        if not (np.isfinite(accelerations(start)).all() and np.isfinite(jacobian(start)).all()):
+            raise FloatingPointError("the loads are not finite")
         found = least_squares(
             accelerations,
-            [u, -0.05 * u, 0.0],
+            start,
             jac=jacobian,
             bounds=([_SLOWEST, -_FASTEST, -1.5], [_FASTEST, _FASTEST, 1.5]),
             x_scale=[10.0, 2.0, 0.2],

@@ -14,6 +14,7 @@ from birdmb.aerodynamics.elements import place_elements
 from birdmb.aerodynamics.joints import hinge_torques, joint_torques
 from birdmb.aerodynamics.prescribed import driven
 from birdmb.errors import StateError
+from birdmb.models.failures import lifting_line_lost, overflow_told
 from birdmb.models.flight import Flight
 from birdmb.models.gusts import Gust
 from birdmb.models.loads import Loads, assemble_loads
@@ -119,12 +120,24 @@ class WingModel(ABC):
         if not np.isfinite(state).all():
             raise StateError(f"loads asked for at t = {t:.6g} s in a state that is not finite.")
         angles, rates = self.joint_motion(t, state)
+        forward, down = self.air_velocity(t)
+        with overflow_told(self.bird, f"the force of the air at t = {t:.4g} s"):
+            return self._loads(t, state, angles, rates, forward, down)
+
+    def _loads(
+        self,
+        t: float,
+        state: FloatArray,
+        angles: FloatArray,
+        rates: FloatArray,
+        forward: float,
+        down: float,
+    ) -> Loads:
         shape = wing_shape(self.wing, angles, rates, *self.discretisation)
         if not shape.converged:
             raise lifting_line_lost(self.bird, t, angles)
         elements = place_elements(shape, self.wing.root)
         u, w, q, theta = self.body_state(state)
-        forward, down = self.air_velocity(t)
         c, s = np.cos(theta), np.sin(theta)
         motion = u - forward * c + down * s, w - forward * s - down * c, q
         frame = self.airframe
@@ -155,16 +168,3 @@ class WingModel(ABC):
 
     def _steps(self, t0: float, t1: float) -> int:
         return max(1, round(self.steps_per_beat * abs(t1 - t0) / self.bird.period))
-
-
-def lifting_line_lost(bird: Bird, t: float, angles: FloatArray) -> StateError:
-    """Say at which joint angles the lifting line could not be found."""
-    listed = ", ".join(
-        f"{name} {np.degrees(angle):.1f} deg"
-        for name, angle in zip(bird.angle_names, angles, strict=True)
-    )
-    return StateError(
-        f"{bird.name}: no line orthogonal to its chords fits the wing at t = {t:.4f} s "
-        f"({listed}); the wing is folded too far, or wing.discretisation has too many elements for "
-        f"its rounding."
-    )

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import birdmb
-from birdmb.models import multibody as model_module
+from birdmb.models import instants
 from tests.models.test_rigid_cycle import sorted_like
 
 
@@ -202,7 +202,7 @@ def test_birds_that_differ_in_springs_share_their_instants_and_no_result_depends
     assert model.instant(0.1) is not wider.instant(0.1)
     x = model.driven_state()
     end = softer.flow(x, 0.0, 0.25)
-    model_module._kept_instants.cache_clear()
+    instants._kept.cache_clear()
     alone = birdmb.MultibodyModel(softer.bird, steps_per_beat=40)
     assert alone.instant(0.1) is not softer.instant(0.1)
     np.testing.assert_array_equal(alone.flow(x, 0.0, 0.25), end)
