@@ -1,109 +1,127 @@
-"""Functions of an orbit that change sign at its bifurcations."""
+"""What the multipliers of two neighbouring orbits tell of the bifurcations between them."""
 
 from __future__ import annotations
 
-import itertools
+from dataclasses import dataclass
 
 import numpy as np
 
-from birdmb._typing import ComplexArray
+from birdmb._typing import ComplexArray, FloatArray
 from birdmb.orbits.branch import BifurcationKind, BranchPoint
 
-# Of two multipliers whose product is 1 on a circle, an imaginary part less than this is real.
-_REAL = 1e-6
+
+@dataclass(frozen=True)
+class Neutral:
+    """Numbers of multipliers at a place within their error bounds, the trivial one not counted.
+
+    Those that stay there along a branch, as conserved quantities and conservative pairs do, change
+    sides by their errors alone and must not be taken for bifurcations.
+
+    Attributes:
+        circle: on the unit circle.
+        one: at 1.
+        minus_one: at -1.
+    """
+
+    circle: int
+    one: int
+    minus_one: int
+
+    @classmethod
+    def of(cls, point: BranchPoint) -> Neutral:
+        """The numbers at one point."""
+        values, errors = nontrivial(point)
+        return cls(
+            int((np.abs(np.abs(values) - 1) <= errors).sum()),
+            int((np.abs(values - 1) <= errors).sum()),
+            int((np.abs(values + 1) <= errors).sum()),
+        )
+
+    def still(self, point: BranchPoint) -> Neutral:
+        """The numbers of those that are there at a further point, too."""
+        other = Neutral.of(point)
+        return Neutral(
+            min(self.circle, other.circle),
+            min(self.one, other.one),
+            min(self.minus_one, other.minus_one),
+        )
 
 
-def nontrivial(point: BranchPoint) -> ComplexArray:
-    """Multipliers without the trivial one."""
+def nontrivial(point: BranchPoint) -> tuple[ComplexArray, FloatArray]:
+    """Multipliers without the trivial one, and their error bounds."""
     keep = np.arange(len(point.multipliers)) != point.trivial_index
-    return np.asarray(point.multipliers[keep])
+    return np.asarray(point.multipliers[keep]), np.asarray(point.multiplier_errors[keep])
 
 
-def fold(point: BranchPoint) -> float:
+def fold(point: BranchPoint, _neutral: Neutral) -> float:
     """Component of the tangent along the parameter: zero where the branch turns."""
     return float(point.tangent[-1])
 
 
-def branch_point(point: BranchPoint) -> float:
-    """Product of Lambda - 1, each over |Lambda| + 1."""
-    values = nontrivial(point)
-    return float(np.prod((values - 1) / (np.abs(values) + 1)).real)
+def branch_point(point: BranchPoint, neutral: Neutral) -> float:
+    """Product of Lambda - 1, each over |Lambda| + 1, without those that stay at 1."""
+    return _product_about(1.0, point, neutral.one)
 
 
-def period_doubling(point: BranchPoint) -> float:
-    """Product of Lambda + 1, each over |Lambda| + 1."""
-    values = nontrivial(point)
-    return float(np.prod((values + 1) / (np.abs(values) + 1)).real)
+def period_doubling(point: BranchPoint, neutral: Neutral) -> float:
+    """Product of Lambda + 1, each over |Lambda| + 1, without those that stay at -1."""
+    return _product_about(-1.0, point, neutral.minus_one)
 
 
-def neimark_sacker(point: BranchPoint) -> float:
-    """Product over pairs of Lambda_i Lambda_j - 1, each over |Lambda_i Lambda_j| + 1.
+TESTS = {"fold": fold, "branch point": branch_point, "period doubling": period_doubling}
 
-    It vanishes too where two real multipliers have the product 1 (a neutral saddle), which is no
-    bifurcation.
+
+def sign_changes(
+    before: BranchPoint, after: BranchPoint, neutral: Neutral
+) -> list[BifurcationKind]:
+    """Kinds whose test function changes its sign between two neighbouring points of a branch.
+
+    An even number of one kind does not show; `counts_outside` shows it, unless they cancel.
     """
-    pairs = _pair_products(nontrivial(point))
-    return float(np.prod((pairs - 1) / (np.abs(pairs) + 1)).real)
 
+    def changes(kind: BifurcationKind) -> bool:
+        return TESTS[kind](before, neutral) * TESTS[kind](after, neutral) < 0
 
-TESTS = {
-    "fold": fold,
-    "period doubling": period_doubling,
-    "Neimark-Sacker": neimark_sacker,
-    "branch point": branch_point,
-}
-
-
-def crossings(before: BranchPoint, after: BranchPoint) -> list[BifurcationKind]:
-    """Kinds of bifurcations between two neighbouring points of a branch, one of each at most.
-
-    Two of the same kind between two points cancel and are missed: take shorter steps.
-    """
     kinds: list[BifurcationKind] = []
-    if fold(before) * fold(after) < 0:
+    if changes("fold"):
         kinds.append("fold")
-    elif branch_point(before) * branch_point(after) < 0:
+    elif changes("branch point"):
         kinds.append("branch point")
-    if period_doubling(before) * period_doubling(after) < 0:
+    if changes("period doubling"):
         kinds.append("period doubling")
-    if neimark_sacker(before) * neimark_sacker(after) < 0 and not (
-        _conservative(before) or _conservative(after)
-    ):
-        kinds.append("Neimark-Sacker")
     return kinds
 
 
-def is_neutral_saddle(point: BranchPoint) -> bool:
-    """Whether the pair with a product nearest 1 is real."""
-    values = nontrivial(point)
-    first, second = np.triu_indices(len(values), 1)
-    nearest = np.abs(_pair_products(values) - 1).argmin()
-    pair = values[[first[nearest], second[nearest]]]
-    return bool((np.abs(pair.imag) < _REAL).all())
+def counts_outside(point: BranchPoint, neutral: Neutral) -> frozenset[int]:
+    """How many multipliers may lie outside the unit circle, as far as their error bounds tell.
+
+    The trivial one and those that stay on the circle are not counted.
+    """
+    values, errors = nontrivial(point)
+    excess = np.abs(values) - 1
+    return numbers_outside(excess, errors, neutral)
 
 
-def critical_modulus(point: BranchPoint, kind: BifurcationKind) -> tuple[float, float]:
-    """Distance from the unit circle of the multiplier that crosses, and its error bound."""
-    index = np.flatnonzero(np.arange(len(point.multipliers)) != point.trivial_index)
-    values, errors = point.multipliers[index], point.multiplier_errors[index]
-    if kind == "Neimark-Sacker":
-        candidates = np.abs(np.abs(values) - 1) + 10.0 * (np.abs(values.imag) < _REAL)
-    else:
-        candidates = np.abs(values - (-1 if kind == "period doubling" else 1))
-    nearest = int(candidates.argmin())
-    return float(np.abs(values[nearest]) - 1), float(errors[nearest])
+def numbers_outside(excess: FloatArray, errors: FloatArray, neutral: Neutral) -> frozenset[int]:
+    """The same of moduli less 1, with their error bounds."""
+    surely = int((excess > errors).sum())
+    undecided = int((np.abs(excess) <= errors).sum())
+    return frozenset(range(surely, surely + max(undecided - neutral.circle, 0) + 1))
 
 
-def _pair_products(values: ComplexArray) -> ComplexArray:
-    return np.array([a * b for a, b in itertools.combinations(values, 2)], complex)
+def sorted_excess(point: BranchPoint, neutral: Neutral) -> tuple[FloatArray, FloatArray]:
+    """Moduli less 1, the largest first, with error bounds; without those that stay on the circle.
+
+    Each place in this order is a continuous function along a branch.
+    """
+    values, errors = nontrivial(point)
+    excess = np.abs(values) - 1
+    moving = np.sort(np.argsort(np.abs(excess), kind="stable")[neutral.circle :])
+    order = moving[np.argsort(-excess[moving], kind="stable")]
+    return excess[order], errors[order]
 
 
-def _conservative(point: BranchPoint) -> bool:
-    """Whether some pair has the product 1 within its error bounds, as in Hamiltonian systems."""
-    index = np.flatnonzero(np.arange(len(point.multipliers)) != point.trivial_index)
-    for i, j in itertools.combinations(index, 2):
-        a, b = point.multipliers[i], point.multipliers[j]
-        error = abs(a) * point.multiplier_errors[j] + abs(b) * point.multiplier_errors[i]
-        if abs(a * b - 1) <= error:
-            return True
-    return False
+def _product_about(centre: float, point: BranchPoint, staying: int) -> float:
+    values, _ = nontrivial(point)
+    values = values[np.argsort(np.abs(values - centre), kind="stable")[staying:]]
+    return float(np.prod((values - centre) / (np.abs(values) + 1)).real)

@@ -14,9 +14,10 @@ from matplotlib.figure import Figure
 
 from birdmb.errors import BirdmbError
 from birdmb.orbits import plots
-from birdmb.orbits.branch import Bifurcation
+from birdmb.orbits.branch import Bifurcation, Branch
 from birdmb.orbits.continuation import continue_branch
-from birdmb.orbits.errors import ArgumentError
+from birdmb.orbits.errors import BIFURCATIONS_FOUND, ArgumentError
+from birdmb.orbits.extended import Family
 from birdmb.orbits.problem import Model
 
 
@@ -78,10 +79,11 @@ def stability_boundary(
     period_guess: float | None = None,
     **options: Any,
 ) -> StabilityBoundary:
-    """Locate the first bifurcation along one parameter for each value of another.
+    """Locate the first change of stability along one parameter for each value of another.
 
-    Each value costs a continuation up to its bifurcation; each starts from the orbit at which the
-    one before it started, so order the values.
+    That is the first bifurcation with orbits that are unstable on one of its two sides alone; those
+    that make unstable orbits more or less unstable are passed. Each value costs a continuation up
+    to there; each starts from the orbit at which the one before it started, so order the values.
 
     Args:
         family: function of the two parameters that returns the model.
@@ -94,18 +96,17 @@ def stability_boundary(
         options: what else `continue_branch` takes.
 
     Returns:
-        The boundary. A value at which no orbit or no bifurcation was found keeps the reason; the
-        others are not lost for it.
+        The boundary. A value at which no orbit or no change of stability was found keeps the
+        reason; the others are not lost for it.
     """
     points = []
     for second in second_values:
         try:
-            branch = continue_branch(
+            branch = _up_to_change(
                 functools.partial(_swapped, family, second),
                 first_range,
                 guess,
                 period_guess=period_guess,
-                max_bifurcations=1,
                 parameter_name=first_name,
                 **options,
             )
@@ -117,12 +118,34 @@ def stability_boundary(
         start = branch.points[0]
         guess = start.points
         period_guess = None if period_guess is None else start.period
-        if branch.bifurcations:
-            points.append(BoundaryPoint(second, branch.bifurcations[0], ""))
-        else:
-            reason = "no bifurcation in the range" if branch.stopped is None else branch.stopped
+        change = _change(branch)
+        if change is None:
+            reason = branch.stopped or "no change of stability in the range"
             points.append(BoundaryPoint(second, None, str(reason)))
+        else:
+            points.append(BoundaryPoint(second, change, ""))
     return StabilityBoundary(first_name, second_name, tuple(points))
+
+
+def _up_to_change(
+    family: Family, parameter_range: tuple[float, float], guess: npt.ArrayLike | None, **options: Any
+) -> Branch:
+    """The branch up to its first change of stability, or as far as it goes."""
+    branch = continue_branch(family, parameter_range, guess, max_bifurcations=1, **options)
+    while _change(branch) is None and _may_go_on(branch):
+        branch = continue_branch(
+            family, parameter_range, resume=branch, max_bifurcations=1, **options
+        )
+    return branch
+
+
+def _change(branch: Branch) -> Bifurcation | None:
+    return next((found for found in branch.bifurcations if found.changes_stability), None)
+
+
+def _may_go_on(branch: Branch) -> bool:
+    stopped = branch.stopped
+    return stopped is not None and stopped.reason == BIFURCATIONS_FOUND
 
 
 def _swapped(family: Callable[[float, float], Model], second: float, first: float) -> Model:

@@ -12,12 +12,14 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from birdmb._typing import ComplexArray, FloatArray
+from birdmb._typing import BoolArray, ComplexArray, FloatArray
 from birdmb.orbits import plots
 from birdmb.orbits.errors import BranchStopped
 from birdmb.orbits.multipliers import Stability
 
-BifurcationKind = Literal["fold", "period doubling", "Neimark-Sacker", "branch point"]
+BifurcationKind = Literal[
+    "fold", "period doubling", "Neimark-Sacker", "branch point", "multiple"
+]
 
 _SETTING = "setting_"
 
@@ -55,27 +57,44 @@ class BranchPoint:
 
 @dataclass(frozen=True)
 class Bifurcation:
-    """A located change of stability.
+    """A located crossing of the unit circle by one or more multipliers.
 
     Attributes:
         kind: "fold" (the branch turns, multiplier 1), "period doubling" (multiplier -1),
-            "Neimark-Sacker" (complex pair on the unit circle) or "branch point" (multiplier 1, the
-            branch does not turn).
+            "Neimark-Sacker" (complex pair on the unit circle), "branch point" (multiplier 1, the
+            branch does not turn) or "multiple": more multipliers cross at once than these kinds
+            have, as in several copies of one system, in symmetric systems, and where a pair crosses
+            at 1 or -1 (the strong resonances 1:1 and 1:2). `multipliers` says which.
         point: the orbit there.
         parameter_error: bound of the error of the parameter that comes from the location and from
             the error bounds of the multipliers.
         after: index of the branch point before it.
+        crossing: mask (n,) of the multipliers that cross.
+        outside: numbers of multipliers outside the unit circle before and after, in the direction
+            of travel; those that stay on the circle all along the branch are not counted.
     """
 
     kind: BifurcationKind
     point: BranchPoint
     parameter_error: float
     after: int
+    crossing: BoolArray
+    outside: tuple[int, int]
 
     @property
     def parameter(self) -> float:
         """Value of the parameter."""
         return self.point.parameter
+
+    @property
+    def multipliers(self) -> ComplexArray:
+        """Multipliers (k,) that cross the unit circle."""
+        return np.asarray(self.point.multipliers[self.crossing])
+
+    @property
+    def changes_stability(self) -> bool:
+        """Whether orbits are stable, or not known to be unstable, on one of its two sides alone."""
+        return (self.outside[0] == 0) != (self.outside[1] == 0)
 
 
 @dataclass(frozen=True)
@@ -123,6 +142,11 @@ class Branch:
         for name in ("parameter_error", "after"):
             values = [getattr(bifurcation, name) for bifurcation in self.bifurcations]
             data[f"bifurcation_{name}"] = xr.DataArray(np.array(values), dims="bifurcation")
+        if located:
+            crossing = [bifurcation.crossing for bifurcation in self.bifurcations]
+            outside = [bifurcation.outside for bifurcation in self.bifurcations]
+            data["bifurcation_crossing"] = (("bifurcation", "multiplier"), np.array(crossing))
+            data["bifurcation_outside"] = (("bifurcation", "side"), np.array(outside))
         data["state_scale"] = xr.DataArray(self.state_scale, dims="state")
         attrs: dict[str, str | float] = {
             "parameter_name": self.parameter_name,
@@ -186,6 +210,8 @@ def load_branch(path: str | Path) -> Branch:
                     point=point,
                     parameter_error=float(row["bifurcation_parameter_error"]),
                     after=int(row["bifurcation_after"]),
+                    crossing=row["bifurcation_crossing"].values.astype(bool),
+                    outside=tuple(map(int, row["bifurcation_outside"].values)),
                 )
             )
     stopped = None

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from birdmb.orbits.branch import Bifurcation, Branch, BranchPoint
-from birdmb.orbits.errors import ArgumentError, BranchStopped
+from birdmb.orbits.errors import ArgumentError, BranchStopped, SingularJacobianError
 from birdmb.orbits.extended import ExtendedEquations, Family
 from birdmb.orbits.search import find_limit_cycle
 from birdmb.orbits.segments import choose_jacobian
@@ -115,7 +115,15 @@ def continue_branch(
     )
     tracer = Tracer(equations, steps, tolerance, observables or {})
     if resume is None:
-        points = [tracer.point_at(tracer.unknowns(begin, orbit, period), ahead)]
+        try:
+            points = [tracer.point_at(tracer.unknowns(begin, orbit, period), ahead)]
+        except np.linalg.LinAlgError as error:
+            raise SingularJacobianError(
+                f"The orbit at {parameter_name} = {begin:.8g} is one of a continuous family, or a "
+                f"bifurcation to the last digit: no single branch leads on; try another start.",
+                orbit[0],
+                cycle.residual,
+            ) from error
         bifurcations: list[Bifurcation] = []
     else:
         points = list(resume.points)
@@ -141,7 +149,8 @@ def continue_branch(
         kept(BranchStopped("the run was interrupted", begin))
         if callback is not None:
             callback(points[0])
-    for item in tracer.follow(points[-1], max_points, max_bifurcations, len(points)):
+    known = tuple(points), tuple(bifurcations)
+    for item in tracer.follow(*known, max_points, max_bifurcations):
         if isinstance(item, BranchPoint):
             points.append(item)
             kept(BranchStopped("the run was interrupted", item.parameter))

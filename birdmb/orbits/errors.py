@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Final, Literal
 
 from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError
@@ -37,6 +37,7 @@ StopReason = Literal[
     "the number of bifurcations asked for was reached",
     "the run was interrupted",
 ]
+BIFURCATIONS_FOUND: Final = "the number of bifurcations asked for was reached"
 
 
 class BranchStopped(OrbitError):  # noqa: N818 - it reports an end, often no error

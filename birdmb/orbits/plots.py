@@ -20,7 +20,13 @@ if TYPE_CHECKING:
 
 STABLE_COLOUR, UNSTABLE_COLOUR = "tab:blue", "tab:red"
 VERDICT_COLOURS = {"stable": STABLE_COLOUR, "unstable": UNSTABLE_COLOUR, "undecided": "0.5"}
-MARKERS = {"fold": "o", "period doubling": "s", "Neimark-Sacker": "D", "branch point": "x"}
+MARKERS = {
+    "fold": "o",
+    "period doubling": "s",
+    "Neimark-Sacker": "D",
+    "branch point": "x",
+    "multiple": "*",
+}
 
 
 def plot_cycle(

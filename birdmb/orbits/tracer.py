@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.optimize import brentq
 
 from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError, StateError
-from birdmb.orbits.bifurcations import TESTS, critical_modulus, crossings, is_neutral_saddle
-from birdmb.orbits.branch import Bifurcation, BifurcationKind, BranchPoint
+from birdmb.orbits.bifurcations import Neutral, counts_outside
+from birdmb.orbits.branch import Bifurcation, BranchPoint
 from birdmb.orbits.cycle import LimitCycle
-from birdmb.orbits.errors import BranchStopped, ConvergenceError, StopReason
+from birdmb.orbits.errors import (
+    BIFURCATIONS_FOUND,
+    BranchStopped,
+    ConvergenceError,
+    StopReason,
+)
 from birdmb.orbits.extended import ExtendedEquations
 from birdmb.orbits.linearisation import linearise
+from birdmb.orbits.locating import Chord, locate, outside_after
 from birdmb.orbits.newton import Iteration, solve
 from birdmb.orbits.periodic import periodic_multipliers
 from birdmb.orbits.problem import HasLimitCycleType
@@ -25,10 +30,9 @@ Observables = Mapping[str, Callable[[LimitCycle], float]]
 _CORRECTOR_ITERATIONS = 12
 _IDEAL_JACOBIANS = 3
 # A sharper turn between two points, or a longer way from the predicted one to the point, is retried
-# with a shorter step, lest a fold or a branch be jumped over.
+# with a shorter step, so that no fold and no branch is jumped over.
 _LEAST_COSINE = 0.9
 _LARGEST_CORRECTION = 0.5
-_LOCATION_TOLERANCE = 1e-7  # in arclength
 
 
 class _NotNeighboursError(OrbitError):
@@ -102,17 +106,18 @@ class Tracer:
 
     def follow(
         self,
-        start: BranchPoint,
+        points: Sequence[BranchPoint],
+        bifurcations: Sequence[Bifurcation],
         max_points: int,
         max_bifurcations: int | None = None,
-        count: int = 1,
     ) -> Iterator[BranchPoint | Bifurcation]:
-        """Yield the points that follow `start`, the `count`-th of up to `max_points`.
+        """Yield what follows the points known so far, up to `max_points` in all.
 
-        The bifurcations on the way to a point come before it.
+        The bifurcations on the way to a point come before it; `max_bifurcations` counts new ones.
         """
-        bifurcations = 0
-        point, step = start, start.next_step
+        found, count = 0, len(points)
+        point, step = points[-1], points[-1].next_step
+        neutral, outside = _known(points, bifurcations)
         while not self._at_end(point):
             if count >= max_points:
                 self._stop("the number of points allowed was reached", point)
@@ -132,20 +137,19 @@ class Tracer:
             if self._passed_equilibrium(point, new):
                 self._stop("the cycles shrank to an equilibrium", point)
                 return
-            located = [
-                self._locate(kind, u, point, new_u, new, count - 1)
-                for kind in crossings(point, new)
-            ]
-            for bifurcation in filter(None, located):
-                yield bifurcation
-                bifurcations += 1
+            earlier, neutral = neutral, neutral.still(new)
+            chord = self._chord(u, point, new_u, new)
+            located = locate(chord, count - 1, outside, neutral, earlier)
+            outside = outside_after(outside, located, new, neutral)
+            yield from located
+            found += len(located)
             jacobians = sum(not iteration.jacobian_reused for iteration in iterations[1:])
             factor = 2 ** ((_IDEAL_JACOBIANS - jacobians) / 2)
             step = min(step * min(max(factor, 0.5), 2.0), self._steps.longest)
             new = replace(new, next_step=step)
             yield new
-            if max_bifurcations is not None and bifurcations >= max_bifurcations:
-                self._stop("the number of bifurcations asked for was reached", new)
+            if max_bifurcations is not None and found >= max_bifurcations:
+                self._stop(BIFURCATIONS_FOUND, new)
                 return
             point, count = new, count + 1
 
@@ -226,39 +230,32 @@ class Tracer:
             velocities.append(segments.velocities(point.points, point.period) / segments.scale)
         return bool(np.sum(velocities[0] * velocities[1]) < 0)
 
-    def _locate(
-        self,
-        kind: BifurcationKind,
-        u: FloatArray,
-        before: BranchPoint,
-        next_u: FloatArray,
-        after: BranchPoint,
-        index: int,
-    ) -> Bifurcation | None:
+    def _chord(
+        self, u: FloatArray, before: BranchPoint, next_u: FloatArray, after: BranchPoint
+    ) -> Chord:
         chord = next_u - u
         length = float(np.sqrt(self._equations.inner(chord, chord)))
         direction = chord / length
-        seen = {0.0: before, length: after}
 
-        def test(distance: float) -> float:
-            if distance not in seen:
-                plane = self._equations.on_plane(u, direction, distance)
-                found, _, iterations = self._solve(plane, u + distance * direction)
-                seen[distance] = self.point_at(found, direction, iterations)
-            return TESTS[kind](seen[distance])
+        def orbit_at(distance: float) -> BranchPoint:
+            plane = self._equations.on_plane(u, direction, distance)
+            found, _, iterations = self._solve(plane, u + distance * direction)
+            return self.point_at(found, direction, iterations)
 
-        try:
-            point = seen[brentq(test, 0.0, length, xtol=_LOCATION_TOLERANCE)]
-        except _Failure:
-            # Still a bifurcation, between the nearest points seen on its two sides.
-            left = seen[max(s for s in seen if test(s) * test(0.0) > 0)]
-            right = seen[min(s for s in seen if test(s) * test(0.0) <= 0)]
-            return Bifurcation(kind, left, abs(right.parameter - left.parameter), index)
-        if kind == "Neimark-Sacker" and is_neutral_saddle(point):
-            return None
-        error = _LOCATION_TOLERANCE * self._equations.unit
-        if kind != "fold":
-            change = critical_modulus(after, kind)[0] - critical_modulus(before, kind)[0]
-            slope = abs(change / (after.parameter - before.parameter))
-            error += critical_modulus(point, kind)[1] / slope
-        return Bifurcation(kind, point, error, index)
+        return Chord(before, after, length, self._equations.unit, orbit_at)
+
+
+def _known(
+    points: Sequence[BranchPoint], bifurcations: Sequence[Bifurcation]
+) -> tuple[Neutral, frozenset[int]]:
+    """What stays on the circle along some points, and the numbers outside it at the last.
+
+    Found from the points alone, so that a branch that is resumed knows the same.
+    """
+    neutral = Neutral.of(points[0])
+    outside = counts_outside(points[0], neutral)
+    for i, point in enumerate(points[1:]):
+        neutral = neutral.still(point)
+        between = [bifurcation for bifurcation in bifurcations if bifurcation.after == i]
+        outside = outside_after(outside, between, point, neutral)
+    return neutral, outside
