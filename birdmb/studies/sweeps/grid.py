@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import itertools
 import math
+import sys
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
@@ -17,6 +19,7 @@ import numpy as np
 
 from birdmb.studies.sweeps.errors import SweepError
 from birdmb.topology import Bird
+from birdmb.topology.messages import shown
 
 Value: TypeAlias = float | int | str | bool
 Place: TypeAlias = tuple[int, ...]
@@ -25,6 +28,9 @@ Place: TypeAlias = tuple[int, ...]
 # Along each parameter, every fourth value starts from the fourth before and opens a chain of three.
 # Shorter strides leave workers idle, longer ones start further from the flight they look for.
 _STRIDE = 4
+# Of a million points the places alone take some hundred megabytes, their results two gigabytes.
+MOST_POINTS = 2_000_000
+_LARGEST = sys.float_info.max
 
 
 @dataclass(frozen=True)
@@ -43,20 +49,29 @@ class Grid:
 
         Raises:
             TopologyError: the bird has no value of that name.
-            SweepError: no parameter, no values, a value twice or none that can be stored.
+            SweepError: no parameter, no values, a value twice or none that can be stored, the same
+                value under two names, or more points than can be kept in mind.
         """
         if not vary:
             raise SweepError("A sweep needs at least one parameter to vary.")
-        parameters = {}
         for name, values in vary.items():
             bird.value(name)
-            parameters[name] = tuple(_plain(name, value) for value in values)
-            if not parameters[name]:
+            if not len(values):
                 raise SweepError(f"{name} has no values to take.")
-            for i, value in enumerate(parameters[name]):
-                if value in parameters[name][:i]:
-                    raise SweepError(f"{name} is to be {value} twice; keep one of the two.")
-        return cls(parameters)
+        size = math.prod(map(len, vary.values()))
+        if size > MOST_POINTS:
+            raise SweepError(
+                f"{size:.3g} points are asked for, more than the {MOST_POINTS:.3g} that a study "
+                f"can hold; take fewer values, or split them over several stores."
+            )
+        if pair := overlap([*vary]):
+            raise SweepError(f"{pair[0]} and {pair[1]} are one value; vary it under one name.")
+        return cls({name: _distinct(name, values) for name, values in vary.items()})
+
+    @property
+    def size(self) -> int:
+        """How many points there are."""
+        return math.prod(self.shape)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -95,11 +110,33 @@ def parent(place: Place) -> Place | None:
     return None
 
 
+def overlap(names: Sequence[str]) -> tuple[str, str] | None:
+    """Two of these dotted names that lead to the same value: an angle's, or a whole and its part.
+
+    `None` if there are no two.
+    """
+    plain = [name.removesuffix("_deg") for name in names]
+    for j, second in enumerate(plain):
+        for i, first in enumerate(plain[:j]):
+            whole, part = sorted((first, second), key=len)
+            if whole == part or part.startswith(f"{whole}."):
+                return names[i], names[j]
+    return None
+
+
+def _distinct(name: str, values: Sequence[Any]) -> tuple[Value, ...]:
+    plain = tuple(_plain(name, value) for value in values)
+    if len(set(plain)) < len(plain):
+        twice, _ = Counter(plain).most_common(1)[0]
+        raise SweepError(f"{name} is to be {twice} twice; keep one of the two.")
+    return plain
+
+
 def _plain(name: str, value: Any) -> Value:
     """The value as one of Python's own, which a store gives back to the last bit."""
     plain = value.item() if isinstance(value, np.generic) else value
     if not isinstance(plain, int | float | str):
         raise SweepError(f"{name} can be swept over numbers and texts, not over {plain!r}.")
-    if isinstance(plain, float) and not math.isfinite(plain):
-        raise SweepError(f"{name} cannot be {plain}.")
+    if isinstance(plain, int | float) and not abs(plain) <= _LARGEST:
+        raise SweepError(f"{name} cannot be {shown(plain)}; it must be a finite number.")
     return plain

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import math
+import textwrap
+import threading
 import time
-from collections.abc import Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass
 from typing import Any, cast
 
-import numpy as np
 from threadpoolctl import threadpool_limits
 
 from birdmb.errors import BirdmbError, OrbitError, StateError
 from birdmb.models import FlightCycle, MultibodyModel
 from birdmb.models.wing_model import WingModel
-from birdmb.orbits import ArgumentError, find_limit_cycle
+from birdmb.orbits import find_limit_cycle
 from birdmb.orbits.problem import HasInitialGuess
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.sweeps.grid import Value
@@ -25,6 +26,7 @@ from birdmb.studies.validity import assess_validity
 from birdmb.topology import Bird
 
 COLD = "cold"
+_LONGEST_REASON = 600  # characters; foreign errors may bring a traceback
 
 
 @dataclass(frozen=True)
@@ -77,29 +79,62 @@ class Outcome:
 def compute(task: Task) -> Outcome:
     """Find the limit cycle of a point, from its neighbour's or else from the model's own guess.
 
-    Raises:
-        ArgumentError: the search is asked for something impossible, whatever the point.
+    Whatever goes wrong is the outcome of the point, with its reason: a deliberate error by its
+    sentence, any other by type and text. Only `KeyboardInterrupt` is raised.
     """
     began = time.perf_counter()
     start, result, reason = COLD, None, ""
     try:
-        # How many threads share a sum decides its last bits.
-        with threadpool_limits(1):
+        with _one_thread():
             if task.trimming is None:
                 cycle, start = _found(task)
                 result = described(cycle)
             else:
                 result, start = _trimmed(task, task.trimming)
-    except ArgumentError:
+    except KeyboardInterrupt:
         raise
-    except (BirdmbError, ArithmeticError, np.linalg.LinAlgError) as error:
-        reason = " ".join(str(error).split()) or type(error).__name__
+    except BaseException as error:
+        start, reason = COLD, _told(error)
     return Outcome(result, reason, start, time.perf_counter() - began)
 
 
+def _told(error: BaseException) -> str:
+    text = textwrap.shorten(str(error), _LONGEST_REASON, placeholder=" ...")
+    if isinstance(error, BirdmbError) and text:
+        return text
+    return f"{type(error).__name__}: {text}" if text else type(error).__name__
+
+
+_counting = threading.Lock()
+_computing = 0
+_limits: threadpool_limits | None = None
+
+
+@contextmanager
+def _one_thread() -> Iterator[None]:
+    """One thread of linear algebra within: how many share a sum decides its last bits.
+
+    The limit is the whole process's. Where threads compute points side by side, the first one that
+    begins sets it and the last one that ends lifts it.
+    """
+    global _computing, _limits  # noqa: PLW0603 - the limit that they count is global, too
+    with _counting:
+        _computing += 1
+        if _computing == 1:
+            _limits = threadpool_limits(1)
+    try:
+        yield
+    finally:
+        with _counting:
+            _computing -= 1
+            if _computing == 0 and _limits is not None:
+                _limits.restore_original_limits()
+                _limits = None
+
+
 def prepare(bird: Bird, model: ModelFactory) -> None:
-    """Load or compile the kernels, by flying a beat."""
-    with suppress(BirdmbError):
+    """Load or compile the kernels, by flying a beat; a bird that cannot is left to its points."""
+    with suppress(Exception):
         flying = model(bird)
         if isinstance(flying, HasInitialGuess):
             flying.flow(flying.initial_guess(), 0.0, bird.period)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
+from collections import deque
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
-from contextlib import nullcontext
+from concurrent.futures import Executor
+from contextlib import closing
 from dataclasses import dataclass
 from os import PathLike
 from typing import Any
@@ -12,13 +14,13 @@ from typing import Any
 from birdmb.models import MultibodyModel
 from birdmb.orbits.newton import SolverMethod
 from birdmb.studies.cycles import ModelFactory
-from birdmb.studies.sweeps.errors import SweepError
+from birdmb.studies.sweeps.checks import check_processes, check_trimming
+from birdmb.studies.sweeps.dispatch import on_executor, on_processes
 from birdmb.studies.sweeps.grid import Grid, Place, Value, parent
-from birdmb.studies.sweeps.point import Guess, Outcome, Task, compute
+from birdmb.studies.sweeps.point import Guess, Outcome, Task
 from birdmb.studies.sweeps.settings import Search, Trimming, identity
 from birdmb.studies.sweeps.store import Store, place_text
 from birdmb.studies.sweeps.study import Study
-from birdmb.studies.sweeps.workers import process_pool
 from birdmb.topology import Bird
 
 _NAMED = 4
@@ -89,13 +91,14 @@ def sweep(
     """
     grid = Grid.of(bird, vary)
     search = Search(tolerance, max_iterations, segments, method)
-    for name in trim.parameters if trim else ():
-        bird.value(name)
+    if trim is not None:
+        check_trimming(bird, grid, trim)
+    if executor is None:
+        check_processes(bird, model, workers)
     with Store.opened(store, identity(bird, model, search, trim), grid) as opened:
         filling = _Filling(bird, model, search, trim, grid, opened, on_point)
         if filling.missing:
-            with nullcontext(executor) if executor else process_pool(workers, bird, model) as pool:
-                filling.run(pool)
+            filling.run(executor, workers)
     return Study.open(store)
 
 
@@ -116,43 +119,36 @@ class _Filling:
         self._search, self._trimming = search, trimming
         self._grid, self._store, self._on_point = grid, store, on_point
         self._points = dict(store.contents.points)
-        self.missing = {place for place in grid.places() if place not in self._points}
         self._followers: dict[Place | None, list[Place]] = {}
-        for place in sorted(self.missing):
-            self._followers.setdefault(parent(place), []).append(place)
-        self._total = len(self.missing) + len(self._points)
+        for place in grid.places():
+            if place not in self._points:
+                self._followers.setdefault(parent(place), []).append(place)
+        self._total = grid.size
 
-    def run(self, pool: Executor) -> None:
+    @property
+    def missing(self) -> int:
+        """How many points of the grid are not in the store."""
+        return self._total - len(self._points)
+
+    def run(self, executor: Executor | None, workers: int | None) -> None:
         """Compute what is missing."""
         self._tell({}, None)
-        running: dict[Future[Outcome], Place] = {}
-
-        def submit_after(before: Place | None) -> None:
-            for place in self._followers.get(before, ()):
-                running[pool.submit(compute, self._task(place))] = place
-
-        try:
-            for ready in (None, *self._points):
-                submit_after(ready)
-            while running:
-                for future in wait(running, return_when=FIRST_COMPLETED).done:
-                    place = running[future]
-                    outcome = future.result()
-                    del running[future]
-                    self._store.add(self._grid, place, outcome)
-                    self._points[place] = outcome
-                    self._tell(self._grid.values(place), outcome)
-                    submit_after(place)
-        except BrokenExecutor as error:
-            raise SweepError(
-                f"A worker process died, of too little memory perhaps, or because a script calls "
-                f'sweep outside `if __name__ == "__main__":`; under way or next were '
-                f"{self._named(running.values())}. Finished points are kept, run again for the "
-                f"others."
-            ) from error
-        finally:
-            for future in running:
-                future.cancel()
+        ready: deque[Place] = deque()
+        for before in (None, *self._points):
+            ready.extend(self._followers.pop(before, ()))
+        if executor is None:
+            processes = min(workers or os.cpu_count() or 1, self.missing)
+            computed = on_processes(
+                processes, self._bird, self._model, ready, self._task, self._named
+            )
+        else:
+            computed = on_executor(executor, ready, self._task, self._named)
+        with closing(computed):
+            for place, outcome in computed:
+                self._store.add(self._grid, place, outcome)
+                self._points[place] = outcome
+                ready.extend(self._followers.pop(place, ()))
+                self._tell(self._grid.values(place), outcome)
 
     def _named(self, places: Iterable[Place]) -> str:
         """The first of some points, which workers take in this order, for a sentence."""

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from functools import partial
 from importlib.metadata import version
-from typing import Any
+from typing import Any, get_args
 
+from birdmb.orbits import ArgumentError
 from birdmb.orbits.newton import SolverMethod
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.sweeps.errors import SweepError
@@ -25,6 +27,17 @@ class Search:
     segments: int
     method: SolverMethod
 
+    def __post_init__(self) -> None:
+        """Refuse at once what would fail at every point."""
+        if self.method not in get_args(SolverMethod):
+            choice = " or ".join(f'"{method}"' for method in get_args(SolverMethod))
+            raise ArgumentError(f'method must be {choice}, not "{self.method}".')
+        if not 0.0 < self.tolerance < math.inf:
+            raise ArgumentError(f"tolerance must be positive and finite, not {self.tolerance}.")
+        for name in ("max_iterations", "segments"):
+            if getattr(self, name) < 1:
+                raise ArgumentError(f"{name} must be 1 or more, not {getattr(self, name)}.")
+
 
 @dataclass(frozen=True)
 class Trimming:
@@ -41,6 +54,29 @@ class Trimming:
     climb_rate: float = 0.0
     speed: float | None = None
     tolerance: float = 1e-6
+
+    def __post_init__(self) -> None:
+        """Refuse at once what would fail at every point."""
+        wanted = "a climb rate" if self.speed is None else "a climb rate and a speed"
+        targets = 1 if self.speed is None else 2
+        if len(self.parameters) != targets:
+            raise ArgumentError(
+                f"a trim to {wanted} needs {targets} parameter(s), not {len(self.parameters)}."
+            )
+        for name, (low, high) in self.parameters.items():
+            if not -math.inf < low < high < math.inf:
+                raise ArgumentError(
+                    f"the bounds of {name} must be finite and ascending, not {low} and {high}."
+                )
+        if not math.isfinite(self.climb_rate):
+            raise ArgumentError(f"the climb rate must be finite, in m/s, not {self.climb_rate}.")
+        if self.speed is not None and not abs(self.climb_rate) < self.speed < math.inf:
+            raise ArgumentError(
+                f"the speed must be positive and more than the climb rate, {self.climb_rate:g} "
+                f"m/s, not {self.speed:g} m/s."
+            )
+        if not 0.0 < self.tolerance < math.inf:
+            raise ArgumentError(f"the trim's tolerance must be positive, not {self.tolerance}.")
 
 
 def identity(
@@ -68,6 +104,11 @@ def model_name(model: ModelFactory) -> str:
     """
     if isinstance(model, partial):
         options = [*map(repr, model.args), *(f"{k}={v!r}" for k, v in model.keywords.items())]
+        if nameless := next((option for option in options if " at 0x" in option), None):
+            raise SweepError(
+                f"The model of a sweep must have options that are the same in every run, for its "
+                f"store to tell it from another; {nameless} is none."
+            )
         return f"{model_name(model.func)}({', '.join(options)})"
     name = str(getattr(model, "__qualname__", "<unnamed>"))
     if "<" in name:

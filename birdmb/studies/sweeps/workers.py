@@ -17,8 +17,8 @@ from birdmb.topology import Bird
 
 
 @contextmanager
-def process_pool(workers: int | None, bird: Bird, model: ModelFactory) -> Iterator[Executor]:
-    """A pool of processes with compiled kernels; by default one for each core.
+def process_pool(workers: int | None, bird: Bird, model: ModelFactory | None) -> Iterator[Executor]:
+    """A pool of processes with compiled kernels, unless there is no model; one for each core.
 
     Spawned, not forked: a fork would inherit threads and locks of whatever runs beside it. An
     exception inside ends the processes at once, in the middle of their points.
@@ -59,10 +59,11 @@ def _interrupts_kept_back() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _start(lifeline: Connection, bird: Bird, model: ModelFactory) -> None:
+def _start(lifeline: Connection, bird: Bird, model: ModelFactory | None) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with, args=(lifeline,), daemon=True).start()
-    prepare(bird, model)
+    if model is not None:
+        prepare(bird, model)
 
 
 def _end_with(lifeline: Connection) -> None:
