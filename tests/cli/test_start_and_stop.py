@@ -11,6 +11,7 @@ from types import SimpleNamespace
 import pytest
 from rich.console import Console
 
+from birdmb._kernels import cache_folders
 from birdmb.cli.progress import Progress, _Compilation
 
 from .conftest import COMPLIANT, HANGS, IBIS
@@ -90,16 +91,18 @@ def test_ctrl_c_while_exudyn_integrates(tmp_path):
 @pytest.mark.parametrize(
     ("cached", "says"), [(False, "once per installation"), (True, "new or have changed")]
 )
-def test_compiling_is_announced_once(tmp_path, capsys, cached, says):
+def test_compiling_is_announced_once(tmp_path, capsys, monkeypatch, cached, says):
+    monkeypatch.setattr("numba.core.config.CACHE_DIR", str(tmp_path))
+    (folder,) = cache_folders()
+    folder.mkdir()
     if cached:
-        (tmp_path / "line.point.nbi").touch()
+        (folder / "line.point.kernel").touch()
     listener = _Compilation(Progress(Console(stderr=True)))
     events = [
         SimpleNamespace(
             data={
                 "dispatcher": SimpleNamespace(
-                    py_func=SimpleNamespace(__module__=module, __name__="kernel"),
-                    stats=SimpleNamespace(cache_path=str(tmp_path)),
+                    py_func=SimpleNamespace(__module__=module, __name__="kernel")
                 )
             }
         )
