@@ -3,8 +3,13 @@
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 import birdmb
+
+# How long an example takes says how busy the machine is; and a failure must not depend on luck.
+settings.register_profile("birdmb", deadline=None, derandomize=True)
+settings.load_profile("birdmb")
 
 TOPOLOGIES = Path(__file__).parent.parent / "topologies"
 REFERENCE = Path(__file__).parent / "reference"

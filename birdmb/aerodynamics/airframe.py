@@ -3,8 +3,8 @@
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from birdmb._kernels import kernel
 from birdmb._typing import FloatArray
 from birdmb.aerodynamics.body_drag import BodyDrag, body_drag, body_drag_force
 from birdmb.aerodynamics.tail import TailSurface, tail_force, tail_surface
@@ -30,7 +30,7 @@ def airframe(bird: Bird) -> Airframe:
     )
 
 
-@njit(cache=True)
+@kernel
 def tail_wind(
     tail: TailSurface, induced: FloatArray, u: float, w: float, q: float
 ) -> tuple[float, float]:
@@ -41,7 +41,7 @@ def tail_wind(
     return -u - q * tail.z + induced[0], -w + q * tail.x + induced[1]
 
 
-@njit(cache=True)
+@kernel
 def airframe_loads(
     frame: Airframe, induced: FloatArray, u: float, w: float, q: float
 ) -> FloatArray:

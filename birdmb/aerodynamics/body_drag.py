@@ -3,8 +3,8 @@
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from birdmb._kernels import kernel
 from birdmb._typing import FloatArray
 from birdmb.topology import Bird
 
@@ -44,7 +44,7 @@ def body_drag(bird: Bird) -> BodyDrag:
     )
 
 
-@njit(cache=True)
+@kernel
 def body_drag_force(drag: BodyDrag, u: float, w: float) -> FloatArray:
     """Drag of a body that moves at u, w (m/s) through the air, against that motion.
 

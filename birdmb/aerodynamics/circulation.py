@@ -13,8 +13,8 @@ Everything is in body axes, moments are about the body's centre of mass G.
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from birdmb._kernels import kernel
 from birdmb._typing import Array, FloatArray
 from birdmb.aerodynamics.elements import Elements, circulation_system
 
@@ -29,7 +29,7 @@ class ElementLoads(NamedTuple):
     profile_drag: FloatArray  # (N, 3) N
 
 
-@njit(cache=True)
+@kernel
 def _wind(elements: Elements, e: int, u: float, w: float, q: float, out: FloatArray) -> None:
     """Write the air velocity (3,) m/s at control point e of a body that moves at u, w and q."""
     out[0] = -u - q * elements.position[e, 2] - elements.velocity[e, 0]
@@ -37,12 +37,12 @@ def _wind(elements: Elements, e: int, u: float, w: float, q: float, out: FloatAr
     out[2] = -w + q * elements.position[e, 0] - elements.velocity[e, 2]
 
 
-@njit(cache=True)
+@kernel
 def _dot(a: FloatArray, b: FloatArray) -> float:
     return float(a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
 
 
-@njit(cache=True)
+@kernel
 def section_flow(
     elements: Elements, u: float, w: float, q: float
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -64,7 +64,7 @@ def section_flow(
     return wind, speed, alpha
 
 
-@njit(cache=True)
+@kernel
 def element_loads(
     elements: Elements, density: float, profile: float, u: float, w: float, q: float
 ) -> ElementLoads:
@@ -84,7 +84,7 @@ def element_loads(
     return ElementLoads(circulation, alpha, speed, force, drag)
 
 
-@njit(cache=True)
+@kernel
 def _forces(
     elements: Elements, density: float, wind: FloatArray, circulation: FloatArray
 ) -> FloatArray:
@@ -101,7 +101,7 @@ def _forces(
     return force
 
 
-@njit(cache=True)
+@kernel
 def resultant(elements: Elements, force: FloatArray) -> FloatArray:
     """Sum over both wings: F_x, F_z (N) and the pitching moment about G (N m), nose up positive."""
     total = np.zeros(3)

@@ -13,8 +13,8 @@ with the difference of the circulations on either side.
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from birdmb._kernels import kernel
 from birdmb._typing import FloatArray
 from birdmb.wing.shape import WingShape
 
@@ -34,7 +34,7 @@ class Elements(NamedTuple):
     induced_z: FloatArray  # (N, N) 1/m
 
 
-@njit(cache=True)
+@kernel
 def place_elements(shape: WingShape, root: FloatArray) -> Elements:
     """Elements of a shape in body axes hung up at `root` (3,) m from G."""
     n = shape.chord.size
@@ -64,7 +64,7 @@ def place_elements(shape: WingShape, root: FloatArray) -> Elements:
     )
 
 
-@njit(cache=True)
+@kernel
 def wake_influence(position: FloatArray, node: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Velocities along y and z, each (N, N) 1/m, at the controls per circulation of each element.
 
@@ -94,7 +94,7 @@ def wake_influence(position: FloatArray, node: FloatArray) -> tuple[FloatArray, 
     return induced_y, induced_z
 
 
-@njit(cache=True)
+@kernel
 def circulation_system(elements: Elements) -> FloatArray:
     """Matrix (N, N) of the circulation's linear system, system @ Gamma = pi c |U| alpha.
 

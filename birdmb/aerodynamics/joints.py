@@ -1,14 +1,14 @@
 """Loads of the wing about its joints and the hinges of its feathers."""
 
 import numpy as np
-from numba import njit
 
+from birdmb._kernels import kernel
 from birdmb._typing import FloatArray
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.chain import Chain
 
 
-@njit(cache=True)
+@kernel
 def joint_torques(
     wing: WingArrays, chain: Chain, position: FloatArray, force: FloatArray, beyond: FloatArray
 ) -> FloatArray:
@@ -35,7 +35,7 @@ def joint_torques(
     return torque
 
 
-@njit(cache=True)
+@kernel
 def hinge_torques(hinge_velocity: FloatArray, force: FloatArray) -> FloatArray:
     """Torques (H,) N m that the elements' loads exert about the feathers' hinges, by virtual work.
 

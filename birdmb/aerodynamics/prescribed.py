@@ -8,8 +8,8 @@ and every perturbation of it. What remains per evaluation is three products of s
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from birdmb._kernels import kernel
 from birdmb._typing import BoolArray, FloatArray
 from birdmb.aerodynamics.airframe import Airframe, airframe_loads
 from birdmb.aerodynamics.circulation import section_flow
@@ -29,7 +29,7 @@ class PrescribedWing(NamedTuple):
     converged: BoolArray  # (P,) the lifting line was found
 
 
-@njit(cache=True)
+@kernel
 def driven(wing: WingArrays, t: float) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Driver angles (A,) rad, rates and accelerations of all joints and hinges at time t (s)."""
     argument = wing.angular_frequency * t + wing.phase
@@ -73,7 +73,7 @@ def every_second(wing: PrescribedWing) -> PrescribedWing:
     )
 
 
-@njit(cache=True)
+@kernel
 def at_phase(stack: Elements, k: int) -> Elements:
     """Elements at the k-th phase, as views."""
     return Elements(
@@ -90,7 +90,7 @@ def at_phase(stack: Elements, k: int) -> Elements:
     )
 
 
-@njit(cache=True)
+@kernel
 def bird_loads(
     wing: PrescribedWing, k: int, frame: Airframe, u: float, w: float, q: float
 ) -> FloatArray:
@@ -104,7 +104,7 @@ def bird_loads(
     return total + airframe_loads(frame, wing.at_tail[k] @ circulation, u, w, q)
 
 
-@njit(cache=True)
+@kernel
 def resultant_and_derivatives(
     elements: Elements,
     inverse: FloatArray,

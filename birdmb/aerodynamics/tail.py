@@ -7,8 +7,8 @@ a slender delta wing, two thirds of its chord behind the apex, and follow the ai
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from birdmb._kernels import kernel
 from birdmb._typing import FloatArray
 from birdmb.topology import Bird
 
@@ -49,7 +49,7 @@ def tail_surface(bird: Bird) -> TailSurface:
     )
 
 
-@njit(cache=True)
+@kernel
 def tail_influence(tail: TailSurface, node: FloatArray) -> FloatArray:
     """Velocities along x and z (2, N), 1/m, at the tail by the circulation of each wing element.
 
@@ -65,7 +65,7 @@ def tail_influence(tail: TailSurface, node: FloatArray) -> FloatArray:
     return influence
 
 
-@njit(cache=True)
+@kernel
 def _add_wake(tail: TailSurface, node: FloatArray, influence: FloatArray) -> None:
     # The first node lies on the centre line, where nothing is shed for symmetry.
     n = node.shape[0] - 1
@@ -82,7 +82,7 @@ def _add_wake(tail: TailSurface, node: FloatArray, influence: FloatArray) -> Non
             influence[1, k] -= down
 
 
-@njit(cache=True)
+@kernel
 def _add_bound(tail: TailSurface, node: FloatArray, influence: FloatArray) -> None:
     for e in range(node.shape[0] - 1):
         a, b = node[e], node[e + 1]
@@ -96,7 +96,7 @@ def _add_bound(tail: TailSurface, node: FloatArray, influence: FloatArray) -> No
         influence[1, e] += scale * (ax * by - ay * bx)
 
 
-@njit(cache=True)
+@kernel
 def tail_angle(tail: TailSurface, wind_x: float, wind_z: float) -> float:
     """Angle of attack (rad) of the plate in a wind (m/s) at its centre of pressure."""
     up = -tail.aft_z * wind_x + tail.aft_x * wind_z
@@ -104,7 +104,7 @@ def tail_angle(tail: TailSurface, wind_x: float, wind_z: float) -> float:
     return float(np.arctan2(up, along))
 
 
-@njit(cache=True)
+@kernel
 def tail_force(tail: TailSurface, density: float, wind_x: float, wind_z: float) -> FloatArray:
     """Force of the tail in a wind (m/s) at its centre of pressure, both with the downwash.
 

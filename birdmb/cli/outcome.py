@@ -2,6 +2,7 @@
 
 import json
 import sys
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -38,7 +39,8 @@ def reported(*, as_json: bool = False) -> Iterator[None]:
     `as_json` puts an object with the key "error" on standard output besides.
     """
     try:
-        yield
+        with _warnings_as_sentences():
+            yield
     except KeyboardInterrupt:
         typer.echo(INTERRUPTED_LINE, err=True)
         raise typer.Exit(INTERRUPTED) from None
@@ -50,6 +52,18 @@ def reported(*, as_json: bool = False) -> Iterator[None]:
             json.dump({"error": sentence, **reached}, sys.stdout, indent=2, allow_nan=False)
             typer.echo()
         raise typer.Exit(_status(error)) from None
+
+
+@contextmanager
+def _warnings_as_sentences() -> Iterator[None]:
+    """Show Python's warnings as one line each, without the place in the source."""
+
+    def show(message: Warning | str, *_: object, **__: object) -> None:
+        typer.echo(f"Warning: {' '.join(str(message).split())}", err=True)
+
+    with warnings.catch_warnings():
+        warnings.showwarning = show
+        yield
 
 
 def _status(error: BirdmbError) -> int:

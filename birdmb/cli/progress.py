@@ -5,11 +5,13 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from numba.core import event
 from rich.console import Console
+from rich.text import Text
+
+from birdmb._kernels import any_cached
 
 if TYPE_CHECKING:
     from birdmb.orbits.newton import Iteration
@@ -43,7 +45,7 @@ class Progress:
     def doing(self, text: str) -> None:
         """Say what is going on now; only a terminal shows it."""
         if self._status is not None:
-            self._status.update(f"[dim]{text}[/dim]")
+            self._status.update(Text(text, style="dim"))
 
     def iteration(self, step: Iteration) -> None:
         """Write a line on an accepted step of the search."""
@@ -75,7 +77,7 @@ class _Compilation(event.Listener):
             return
         if not self._announced:
             self._announced = True
-            self._progress.line(_announcement(Path(dispatcher.stats.cache_path)))
+            self._progress.line(_announcement())
         if self._depth == 0:
             self._started = time.monotonic()
         self._depth += 1
@@ -91,8 +93,8 @@ class _Compilation(event.Listener):
             self._progress.doing("searching")
 
 
-def _announcement(cache: Path) -> str:
-    """What to say before the first compilation, given the directory of the compiled kernels."""
-    if not any(cache.glob("*.nbi")):
+def _announcement() -> str:
+    """What to say before the first compilation."""
+    if not any_cached():
         return "Compiling the kernels, once per installation (up to a minute) ..."
     return "Compiling kernels that are new or have changed since the last run ..."

@@ -1,8 +1,8 @@
 """Compiled generalised forces of the air on the multibody bird."""
 
 import numpy as np
-from numba import njit
 
+from birdmb._kernels import kernel
 from birdmb._typing import FloatArray
 from birdmb.aerodynamics.airframe import Airframe, airframe_loads
 from birdmb.aerodynamics.circulation import element_loads, resultant
@@ -14,21 +14,21 @@ from birdmb.wing.chain import frame_after, joint_chain
 from birdmb.wing.shape import WingShape, turned
 
 
-@njit(cache=True)
+@kernel
 def body_velocity(theta: float, vx: float, vz: float) -> tuple[float, float]:
     """Velocity u, w along the body's axes from that along X (forward) and Z (down)."""
     c, s = np.cos(theta), np.sin(theta)
     return vx * c - vz * s, vx * s + vz * c
 
 
-@njit(cache=True)
+@kernel
 def _body_forces(loads: FloatArray, theta: float) -> FloatArray:
     """Generalised forces on X, Z and the pitch angle from F_x, F_z and M_y in body axes."""
     c, s = np.cos(theta), np.sin(theta)
     return np.array([loads[0] * c + loads[1] * s, -loads[0] * s + loads[1] * c, loads[2]])
 
 
-@njit(cache=True)
+@kernel
 def air_forces(
     wing: WingArrays,
     shape: WingShape,

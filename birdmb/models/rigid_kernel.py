@@ -3,8 +3,8 @@
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from birdmb._kernels import kernel
 from birdmb._typing import FloatArray
 from birdmb.aerodynamics.airframe import Airframe
 from birdmb.aerodynamics.prescribed import PrescribedWing, bird_loads
@@ -18,7 +18,7 @@ class RigidBody(NamedTuple):
     gravity: float  # m/s2
 
 
-@njit(cache=True)
+@kernel
 def rigid_rates(
     wing: PrescribedWing,
     k: int,
@@ -57,7 +57,7 @@ def rigid_rates(
     return rates, jacobian
 
 
-@njit(cache=True)
+@kernel
 def integrate_rigid(
     wing: PrescribedWing,
     x0: FloatArray,

@@ -3,8 +3,8 @@
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from birdmb._kernels import kernel
 from birdmb._typing import FloatArray
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.rotations import rotate_about
@@ -17,7 +17,7 @@ class Chain(NamedTuple):
     origin: FloatArray  # (3, 3) m, where humerus, forearm and hand start
 
 
-@njit(cache=True)
+@kernel
 def joint_chain(wing: WingArrays, angles: FloatArray) -> Chain:
     """Axes of the joints and origins of the bones at `angles` (J,) rad; more are not read."""
     n = wing.segment.size
@@ -35,7 +35,7 @@ def joint_chain(wing: WingArrays, angles: FloatArray) -> Chain:
     return Chain(axis, origin)
 
 
-@njit(cache=True)
+@kernel
 def frame_after(wing: WingArrays, angles: FloatArray, joints: int) -> FloatArray:
     """Rotation (3, 3) of the frame behind the first `joints` joints, to body axes."""
     R = np.eye(3)

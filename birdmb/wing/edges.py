@@ -9,8 +9,8 @@ Angles (A,) are those of the joints, then those of the feathers' hinges.
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from birdmb._kernels import kernel
 from birdmb._typing import Array
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.rotations import rotate_about, turned_about
@@ -33,7 +33,7 @@ class Skeleton(NamedTuple):
     root_rotation: Array
 
 
-@njit(cache=True)
+@kernel
 def skeleton(wing: WingArrays, angles: Array) -> Skeleton:
     """Place the bones for `angles` (A,) rad, real or complex."""
     origin = np.zeros((4, 3), angles.dtype)
@@ -54,7 +54,7 @@ def skeleton(wing: WingArrays, angles: Array) -> Skeleton:
     return Skeleton(origin[:3], origin[3], rotation, root_rotation)
 
 
-@njit(cache=True)
+@kernel
 def _feather_root_aft(wing: WingArrays, bones: Skeleton, angles: Array, feather: int) -> Array:
     """Aft direction of the bones where a feather is rooted: at a joint, the two bones' mean."""
     bone = wing.feather_bone[feather]
@@ -76,7 +76,7 @@ def _feather_root_aft(wing: WingArrays, bones: Skeleton, angles: Array, feather:
     return aft
 
 
-@njit(cache=True)
+@kernel
 def trailing_edge(wing: WingArrays, bones: Skeleton, angles: Array) -> Array:
     """Vertices (F, 3) of the trailing edge: the tips of the feathers, from shoulder to wing tip."""
     n = wing.feather_length.size
@@ -112,7 +112,7 @@ def feather_ends(wing: WingArrays, bones: Skeleton, angles: Array) -> tuple[Arra
     return trailing_edge(rootlets, bones, angles), trailing_edge(wing, bones, angles)
 
 
-@njit(cache=True)
+@kernel
 def leading_edge(wing: WingArrays, bones: Skeleton, tip: Array) -> Array:
     """Vertices (5, 3) of the leading edge: shoulder, abreast of the elbow, wrist, hand tip, `tip`.
 
@@ -144,7 +144,7 @@ def leading_edge(wing: WingArrays, bones: Skeleton, tip: Array) -> Array:
     return vertices
 
 
-@njit(cache=True)
+@kernel
 def wing_edges(wing: WingArrays, angles: Array) -> tuple[Array, Array]:
     """Vertices of the leading (5, 3) and trailing (F, 3) edge, m, at `angles` (A,) rad."""
     bones = skeleton(wing, angles)

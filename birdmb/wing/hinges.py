@@ -5,8 +5,8 @@ by virtual work. These velocities are exact derivatives, by the complex step of 
 """
 
 import numpy as np
-from numba import njit
 
+from birdmb._kernels import kernel
 from birdmb._typing import Array, ComplexArray, FloatArray
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.edges import COMPLEX_STEP, wing_edges
@@ -14,7 +14,7 @@ from birdmb.wing.line import PairedEdges, moved_line, solved_line
 from birdmb.wing.one_step import one_step_line
 
 
-@njit(cache=True)
+@kernel
 def orthogonal_wing(
     wing: WingArrays, angles: ComplexArray, stations: int, rounding: float
 ) -> tuple[PairedEdges, Array, FloatArray]:
@@ -33,7 +33,7 @@ def orthogonal_wing(
     return pairs, leading, velocity
 
 
-@njit(cache=True)
+@kernel
 def one_step_wing(
     wing: WingArrays, angles: ComplexArray, stations: int
 ) -> tuple[PairedEdges, Array, Array, FloatArray]:
@@ -50,18 +50,18 @@ def one_step_wing(
     return pairs, leading, guide, velocity
 
 
-@njit(cache=True)
+@kernel
 def _no_velocity(wing: WingArrays, stations: int) -> FloatArray:
     return np.zeros((wing.offset.size - wing.segment.size, stations // 2, 3))
 
 
-@njit(cache=True)
+@kernel
 def _one_hinge_moving(wing: WingArrays, angles: ComplexArray, hinge: int) -> ComplexArray:
     moving = angles.real.astype(np.complex128)
     moving[wing.segment.size + hinge] += 1j * COMPLEX_STEP
     return moving
 
 
-@njit(cache=True)
+@kernel
 def _control_velocity(pairs: PairedEdges) -> FloatArray:
     return (0.75 * pairs.leading + 0.25 * pairs.trailing)[0::2].imag / COMPLEX_STEP

@@ -15,8 +15,8 @@ angles alone, as smooth as the edges are.
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from birdmb._kernels import kernel
 from birdmb._typing import Array, ComplexArray, FloatArray
 from birdmb.wing.rounded import RoundedPolyline, point, rounded_polyline, tangent
 
@@ -49,7 +49,7 @@ class SolvedLine(NamedTuple):
     converged: bool
 
 
-@njit(cache=True)
+@kernel
 def station_parameters(n: int) -> FloatArray:
     """Parameters in [0, 1] of n stations, crowded towards shoulder and tip like a cosine.
 
@@ -60,7 +60,7 @@ def station_parameters(n: int) -> FloatArray:
     return 0.5 * (1.0 - np.cos(np.pi * np.arange(n) / (n - 1)))
 
 
-@njit(cache=True)
+@kernel
 def _solve_tridiagonal(lower: Array, diagonal: Array, upper: Array, rhs: Array) -> Array:
     """Thomas algorithm; row i reads lower[i] x[i-1] + diagonal[i] x[i] + upper[i] x[i+1]."""
     n = diagonal.size
@@ -77,7 +77,7 @@ def _solve_tridiagonal(lower: Array, diagonal: Array, upper: Array, rhs: Array) 
     return x
 
 
-@njit(cache=True)
+@kernel
 def _pair(
     leading: RoundedPolyline, trailing: RoundedPolyline, s: FloatArray, shift: Array
 ) -> tuple[Array, Array]:
@@ -89,7 +89,7 @@ def _pair(
     return A, B
 
 
-@njit(cache=True)
+@kernel
 def _obliqueness(A: Array, B: Array) -> Array:
     """Residual c_j . (P_{j+1} - P_{j-1}) (n,) m^2, zero at both ends."""
     n = A.shape[0]
@@ -101,7 +101,7 @@ def _obliqueness(A: Array, B: Array) -> Array:
     return F
 
 
-@njit(cache=True)
+@kernel
 def _newton_step(
     leading: RoundedPolyline,
     trailing: RoundedPolyline,
@@ -137,7 +137,7 @@ def _newton_step(
     return _solve_tridiagonal(lower, diagonal, upper, -F)
 
 
-@njit(cache=True)
+@kernel
 def _solve_shifts(
     leading: RoundedPolyline,
     trailing: RoundedPolyline,
@@ -165,7 +165,7 @@ def _solve_shifts(
     return shift, False
 
 
-@njit(cache=True)
+@kernel
 def solved_line(
     leading_edge: ComplexArray, trailing_edge: ComplexArray, stations: int, rounding: float
 ) -> SolvedLine:
@@ -188,7 +188,7 @@ def solved_line(
     return SolvedLine(leading, trailing, s, shift, converged)
 
 
-@njit(cache=True)
+@kernel
 def moved_line(
     line: SolvedLine, leading_edge: ComplexArray, trailing_edge: ComplexArray, rounding: float
 ) -> PairedEdges:
@@ -209,7 +209,7 @@ def moved_line(
     return PairedEdges(moving_A, moving_B, converged)
 
 
-@njit(cache=True)
+@kernel
 def orthogonal_line(
     leading_edge: ComplexArray, trailing_edge: ComplexArray, stations: int, rounding: float
 ) -> PairedEdges:

@@ -6,20 +6,20 @@ the line nor its rates are smooth: use it to compare, not to compute.
 """
 
 import numpy as np
-from numba import njit
 
+from birdmb._kernels import kernel
 from birdmb._typing import Array, ComplexArray
 from birdmb.wing.line import PairedEdges
 
 RELAXATION = 0.25
 
 
-@njit(cache=True)
+@kernel
 def _norm(v: Array) -> complex:
     return np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
 
 
-@njit(cache=True)
+@kernel
 def _walk(path: Array, n: int) -> tuple[Array, Array]:
     """Legs and weights of n points at equal walking distance along the vertices of `path`.
 
@@ -54,7 +54,7 @@ def _walk(path: Array, n: int) -> tuple[Array, Array]:
     return leg, weight
 
 
-@njit(cache=True)
+@kernel
 def _sample(path: Array, leg: Array, weight: Array) -> Array:
     out = np.empty((leg.size, 3), path.dtype)
     for i in range(leg.size):
@@ -62,7 +62,7 @@ def _sample(path: Array, leg: Array, weight: Array) -> Array:
     return out
 
 
-@njit(cache=True)
+@kernel
 def _crossing(edge: Array, P: Array, direction: Array) -> Array:
     """Point where the straight line through the two vertices of `edge` nearest to the chord's line
     comes closest to it; the chord's line passes through P along the unit `direction`."""
@@ -85,7 +85,7 @@ def _crossing(edge: Array, P: Array, direction: Array) -> Array:
     return edge[best] + s * v
 
 
-@njit(cache=True)
+@kernel
 def one_step_line(
     leading_edge: ComplexArray, trailing_edge: ComplexArray, stations: int
 ) -> tuple[PairedEdges, Array]:

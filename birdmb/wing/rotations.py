@@ -1,12 +1,12 @@
 """Rotations along the joint chain, for real and complex angles."""
 
 import numpy as np
-from numba import njit
 
+from birdmb._kernels import kernel
 from birdmb._typing import Array, FloatArray
 
 
-@njit(cache=True)
+@kernel
 def rotate_about(R: Array, axis: FloatArray, angle: complex) -> Array:
     """R times the rotation by `angle` (rad) about the unit `axis` (Rodrigues' formula)."""
     x, y, z = axis
@@ -31,7 +31,7 @@ def rotate_about(R: Array, axis: FloatArray, angle: complex) -> Array:
     return out
 
 
-@njit(cache=True)
+@kernel
 def turned_about(axis: Array, angle: complex, v: Array) -> Array:
     """The vector `v` (3,) turned by `angle` (rad) about the unit `axis` (3,), real or complex."""
     c = np.cos(angle)

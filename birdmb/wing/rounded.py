@@ -8,8 +8,8 @@ legs only within eps_k of the corner. The bump is (1 - x^2)^2, so the result is 
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from birdmb._kernels import kernel
 from birdmb._typing import Array
 
 
@@ -23,7 +23,7 @@ class RoundedPolyline(NamedTuple):
     width: Array  # (n - 2,) half-width of its rounding
 
 
-@njit(cache=True)
+@kernel
 def rounded_polyline(vertices: Array, rounding: float) -> RoundedPolyline:
     """Round the polyline through `vertices` (n, 3), each corner over `rounding` a b/(a + b).
 
@@ -50,7 +50,7 @@ def rounded_polyline(vertices: Array, rounding: float) -> RoundedPolyline:
     return RoundedPolyline(vertices[0].copy(), legs[0] / length[0] * total, turn, corner, width)
 
 
-@njit(cache=True)
+@kernel
 def smooth_step(x: complex) -> complex:
     """From 0 at x <= -1 to 1 at x >= 1, with two continuous derivatives.
 
@@ -65,7 +65,7 @@ def smooth_step(x: complex) -> complex:
     return 0.5 + 15.0 / 16.0 * x * (1.0 - square * (2.0 / 3.0 - square / 5.0))
 
 
-@njit(cache=True)
+@kernel
 def _smooth_ramp(x: complex) -> complex:
     """Integral of `smooth_step`: 0 before x = -1, x after x = 1."""
     if x.real <= -1.0:
@@ -77,7 +77,7 @@ def _smooth_ramp(x: complex) -> complex:
     return 5.0 / 32.0 + 0.5 * x + 15.0 / 16.0 * bulge
 
 
-@njit(cache=True)
+@kernel
 def point(line: RoundedPolyline, s: complex, out: Array) -> None:
     """Write the point (3,) m at parameter s; before 0 and after 1 the end legs go straight on."""
     for i in range(3):
@@ -91,7 +91,7 @@ def point(line: RoundedPolyline, s: complex, out: Array) -> None:
             out[i] += line.turn[k, i] * ramp
 
 
-@njit(cache=True)
+@kernel
 def tangent(line: RoundedPolyline, s: complex, out: Array) -> None:
     """Write the derivative (3,) m of the point by the parameter s."""
     for i in range(3):

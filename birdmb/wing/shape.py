@@ -8,8 +8,8 @@ over the body.
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from birdmb._kernels import kernel
 from birdmb._typing import ComplexArray, FloatArray
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.edges import COMPLEX_STEP
@@ -32,19 +32,19 @@ class WingShape(NamedTuple):
     hinge_velocity: FloatArray  # (H, N, 3) m, of the control points per rate of each hinge
 
 
-@njit(cache=True)
+@kernel
 def _length(v: FloatArray) -> float:
     return np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
 
 
-@njit(cache=True)
+@kernel
 def _cross(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
     out[0] = a[1] * b[2] - a[2] * b[1]
     out[1] = a[2] * b[0] - a[0] * b[2]
     out[2] = a[0] * b[1] - a[1] * b[0]
 
 
-@njit(cache=True)
+@kernel
 def _along(line: FloatArray, j: int) -> FloatArray:
     """Direction of the line at station j: central differences, one-sided at the shoulder.
 
@@ -54,7 +54,7 @@ def _along(line: FloatArray, j: int) -> FloatArray:
     return v / _length(v)
 
 
-@njit(cache=True)
+@kernel
 def _carried_beyond(leading: FloatArray, edge: FloatArray, rounding: float) -> FloatArray:
     """Fractions (N, 2) of each element's load that the bones beyond elbow and wrist carry.
 
@@ -101,7 +101,7 @@ def wing_shape(
     return _assemble(pairs, guide, leading, per_hinge, rounding, published)
 
 
-@njit(cache=True)
+@kernel
 def _assemble(
     pairs: PairedEdges,
     guide: ComplexArray,
@@ -140,7 +140,7 @@ def _assemble(
     )
 
 
-@njit(cache=True)
+@kernel
 def turned(shape: WingShape, R: FloatArray, spin: FloatArray) -> WingShape:
     """The shape seen from axes in which its own axes are `R` (3, 3) and turn at `spin` (3,) rad/s.
 

@@ -15,7 +15,7 @@ from birdmb.cli.sweep import SweepProgress
 from birdmb.studies.sweeps import Finished, Study
 from birdmb.studies.sweeps.point import Outcome
 
-from .conftest import IBIS
+from .conftest import HANGS, IBIS
 
 VARY = (
     *("--vary", "shoulder.flap.amplitude_deg=42:38:5"),
@@ -46,7 +46,7 @@ def children(process):
 
 
 def wait_until_gone(processes):
-    deadline = time.monotonic() + 10
+    deadline = time.monotonic() + HANGS
     while any(path.exists() for path in processes):
         assert time.monotonic() < deadline, "workers outlive the sweep"
         time.sleep(0.02)
@@ -70,7 +70,7 @@ def test_killed_and_interrupted_sweeps_keep_what_they_told_and_leave_no_workers(
         first = interrupted.stderr.readline()
         workers = children(interrupted)
         os.killpg(interrupted.pid, signal.SIGINT)  # as a terminal sends it: to the workers, too
-        output, errors = interrupted.communicate(timeout=60)
+        output, errors = interrupted.communicate(timeout=HANGS)
     assert interrupted.returncode == 130
     assert first.startswith(f"{len(kept) + 1}/30  ")
     assert output == ""
@@ -81,7 +81,7 @@ def test_killed_and_interrupted_sweeps_keep_what_they_told_and_leave_no_workers(
     assert kept.items() < more.items()
 
     with start(store, workers="1") as last:
-        output, errors = last.communicate(timeout=120)
+        output, errors = last.communicate(timeout=HANGS)
     assert last.returncode == 0, errors
     assert len(errors.splitlines()) == 30 - len(more)
     assert output == (f"{store}: 30 points, 30 with a limit cycle (30 unstable), 0 without.\n")

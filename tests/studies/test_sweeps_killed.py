@@ -24,7 +24,7 @@ def test_sweep_killed_at_ten_random_moments(tmp_path):
         cwd=ROOT,
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=900,
         check=False,
     )
     assert killed.returncode == 0, f"seed {seed}: {killed.stderr}"

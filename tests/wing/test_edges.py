@@ -48,7 +48,7 @@ def test_driver_derivatives(wing):
     assert np.degrees(angles[1]) == pytest.approx(-42 * np.sin(8 * np.pi * t))
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(angles=angles_in_reach)
 def test_bones_keep_their_lengths_and_frames_stay_orthonormal(wing, angles):
     bones = skeleton(wing, angles + 0j)
@@ -60,7 +60,7 @@ def test_bones_keep_their_lengths_and_frames_stay_orthonormal(wing, angles):
         np.testing.assert_allclose(R.T @ R, np.eye(3), atol=1e-14)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(angles=angles_in_reach)
 def test_joint_axes_are_what_the_hand_turns_about(wing, angles):
     """d(tip)/dq_j = axis_j x (tip - joint's place), the definition of a revolute joint."""
