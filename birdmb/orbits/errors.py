@@ -16,6 +16,22 @@ class ArgumentError(OrbitError, ValueError):
     """An argument has the wrong shape or value, or two arguments contradict each other."""
 
 
+_LARGEST_TOLERANCE = 1e-2
+
+
+def require_tolerance(name: str, tolerance: float) -> None:
+    """Refuse a closure error that is no number or takes any guess for an orbit.
+
+    Raises:
+        ArgumentError: it is not positive, or above 0.01 state scales.
+    """
+    if not 0 < tolerance <= _LARGEST_TOLERANCE:
+        raise ArgumentError(
+            f"{name} must be positive and at most {_LARGEST_TOLERANCE:g} of the state scale, not "
+            f"{tolerance}; the error of an orbit that is not closed grows with it."
+        )
+
+
 class NotClosedError(OrbitError):
     """An orbit given as known does not close; `residual` is by how much, in state scales."""
 

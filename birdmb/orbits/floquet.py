@@ -8,13 +8,15 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from birdmb.orbits.errors import ArgumentError, NotClosedError
+from birdmb.orbits.errors import ArgumentError, NotClosedError, require_tolerance
 from birdmb.orbits.linearisation import linearise
 from birdmb.orbits.multipliers import MultiplierSolver
 from birdmb.orbits.periodic import periodic_multipliers
+from birdmb.orbits.periodicity import require_period
 from birdmb.orbits.problem import Model
 from birdmb.orbits.result import FloquetResult
-from birdmb.orbits.segments import Segments, choose_jacobian, guess_path, typical_sizes
+from birdmb.orbits.scales import lay_out
+from birdmb.orbits.segments import Segments, choose_jacobian
 from birdmb.orbits.shooting import ShootingEquations
 
 
@@ -43,12 +45,13 @@ def floquet(
         start_time: time of the first state, in s.
         solver: `periodic_multipliers` (keeps small multipliers) or `product_multipliers`.
         closure_tolerance: largest closure error for which x0 counts as periodic, in units of the
-            state scale. What there is of it is part of the error bounds.
+            state scale, at most 0.01. What there is of it is part of the error bounds.
         jacobian: as in `find_limit_cycle`.
         executor: spreads flows over workers; results do not depend on it.
 
     Raises:
-        ArgumentError: wrong shapes, or no period known.
+        ArgumentError: wrong shapes or numbers, no period known, or one in which the right-hand side
+            does not repeat.
         NotClosedError: the orbit does not close.
         StateError: the flow fails on the way round.
     """
@@ -57,10 +60,10 @@ def floquet(
         raise ArgumentError("an orbit of an autonomous system needs its period.")
     if not 0 < period < np.inf:
         raise ArgumentError(f"period must be positive and finite, not {period}.")
-    path, points = guess_path(model, x0, start_time, period, segments)
-    work = Segments(
-        model, typical_sizes(model, path), start_time, choose_jacobian(model, jacobian), executor
-    )
+    require_tolerance("closure_tolerance", closure_tolerance)
+    scale, points = lay_out(model, x0, start_time, period, segments)
+    require_period(model, points[0], scale, start_time, period)
+    work = Segments(model, scale, start_time, choose_jacobian(model, jacobian), executor)
     equations = ShootingEquations(work, period, model.period is None)
     residual = equations.residual(equations.pack(points, period))
     closure = float(np.abs(residual).max())

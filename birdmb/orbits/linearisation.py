@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from birdmb._typing import FloatArray
+from birdmb.orbits.agreement import jacobian_gaps
 from birdmb.orbits.multipliers import MultiplierSolver, Spectrum, product
 from birdmb.orbits.segments import Correction
 from birdmb.orbits.shooting import ShootingEquations
@@ -27,10 +28,11 @@ def linearise(
     `residual` is that of the equations there, if it is known.
 
     The error bounds hold three parts: the errors of the segment Jacobians (differences: from a
-    second estimate; variational: the accuracy that the model declares), the round-off of the
+    second estimate; variational: the accuracy that the model declares, the distance from a coarser
+    version of it, and from differences of the flow where these contradict), the round-off of the
     eigenvalues, and the error of the orbit: the change of the Jacobians over the Newton correction
-    that is left. They do not hold the discretisation of the model itself, which only its refinement
-    shows.
+    that is left. They do not hold the discretisation of a model that has no coarser version, which
+    only its refinement shows.
 
     Returns:
         The fields of a `FloquetResult`, by name.
@@ -46,7 +48,11 @@ def linearise(
     way = np.linalg.lstsq(matrix, -residual)[0]
     length = float(np.linalg.norm(way))
     correction = Correction(length, lambda reach: equations.unpack(u + way * (reach / length)))
+    gaps = np.zeros_like(factors)
+    if segments.jacobian_method == "variational":
+        gaps = jacobian_gaps(segments, points, period, factors, ends)
     factors, errors = segments.refined(points, period, factors, curvatures, correction)
+    errors = errors + gaps
     spectrum = solver(factors, errors, segments.scale)
     return {
         "model": segments.model,
@@ -66,6 +72,7 @@ def linearise(
         "modes_along": spectrum.modes_along,
         "trivial_index": _trivial(equations, points, period, spectrum),
         "jacobian_method": segments.jacobian_method,
+        "jacobian_gap": float((gaps / np.divide.outer(segments.scale, segments.scale)).max()),
     }
 
 

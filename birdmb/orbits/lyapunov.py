@@ -12,7 +12,7 @@ from birdmb._typing import FloatArray
 from birdmb.errors import StateError
 from birdmb.orbits.errors import ArgumentError
 from birdmb.orbits.problem import Model, VariationalModel
-from birdmb.orbits.segments import guess_path, typical_sizes
+from birdmb.orbits.scales import lay_out
 
 LyapunovMethod = Literal["variational", "neighbours"]
 
@@ -83,8 +83,7 @@ def largest_lyapunov_exponent(
         raise ArgumentError(f'method must be "variational" or "neighbours", not "{method}".')
     if method == "variational" and not able:
         raise ArgumentError('method="variational" needs a model with flow_jacobian.')
-    path, points = guess_path(model, x0, start_time, interval, 1)
-    scale = typical_sizes(model, path)
+    scale, points = lay_out(model, x0, start_time, interval, 1)
     x, n = points[0], len(scale)
     direction = np.full(n, 1 / np.sqrt(n))
     logs = np.empty(transient + intervals)

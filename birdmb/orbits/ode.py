@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Literal
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 import numpy.typing as npt
-from scipy.integrate import solve_ivp
 
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
 from birdmb.orbits.errors import ArgumentError
+from birdmb.orbits.integration import SOLVERS, Integration, Integrator
 
 Rhs = Callable[[float, FloatArray], npt.ArrayLike]
 
 # Near eps**(1/5), the best step of the four-point difference.
 _STENCIL_STEP = 1e-3
+# By default the absolute tolerance of a state is this part of the relative one, of its size.
+_ABSOLUTE_PART = 1e-2
+# Below 100 eps scipy's integrators replace the tolerance.
+_RTOL_RANGE = (2.3e-14, 1e-2)
 
 
 @dataclass(frozen=True)
@@ -34,8 +39,12 @@ class OdeModel:
     Integrated by default by DOP853 (Hairer, Norsett & Wanner 1993, Dormand-Prince of order 8 with
     step control). The Jacobian of the flow solves the variational equations dPhi/dt = J(t, x) Phi
     along with the state, under the same error control. Where `jacobian` is not given, J is a
-    four-point central difference of `rhs`: relative error about 1e-12, exact for polynomials up to
-    degree 4.
+    four-point central difference of `rhs` over a thousandth of the typical sizes of the states:
+    relative error about 1e-12, exact for polynomials up to degree 4.
+
+    The variational equations hold for a smooth right-hand side. Where it jumps they leave out what
+    the jump does to neighbours (saltation); `floquet` and `find_limit_cycle` notice by differences
+    of the flow and widen the error bars.
     """
 
     def __init__(
@@ -47,9 +56,10 @@ class OdeModel:
         *,
         guess: npt.ArrayLike | None = None,
         state_scale: npt.ArrayLike | None = None,
-        integrator: Literal["DOP853", "LSODA", "Radau"] = "DOP853",
+        integrator: Integrator = "DOP853",
         rtol: float = 1e-11,
-        atol: npt.ArrayLike = 1e-13,
+        atol: npt.ArrayLike | None = None,
+        most_steps: int = 20_000,
     ) -> None:
         """Describe the system.
 
@@ -59,47 +69,82 @@ class OdeModel:
             period: period of the forcing in s; `None` if rhs does not depend on t.
             jacobian: function of (t, x) that returns d rhs/dx, (n, n).
             guess: state (n,) near the orbit, where a search starts if it is given no other.
-            state_scale: typical sizes of the states, (n,); also sizes difference steps. By default
-                the search takes them from the solution through its guess.
-            integrator: method of scipy's `solve_ivp`; one of the others for a stiff system.
+            state_scale: typical sizes of the states, (n,), which size tolerances and difference
+                steps. By default a search takes them from the solution through its guess; a flow on
+                its own takes the largest entry of its first state for all.
+            integrator: "DOP853", or "LSODA" or "Radau" for a stiff system.
             rtol: relative tolerance of the integration.
-            atol: absolute tolerance, one value or one per state, in the units of the states.
+            atol: absolute tolerance, one value or one per state, in the units of the states; by
+                default rtol/100 of the typical sizes.
+            most_steps: number of steps after which one integration is given up.
 
         Raises:
-            ArgumentError: a period that is not positive, or a guess, scale or tolerance that does
-                not fit the number of states.
+            ArgumentError: a period that is not positive, an unknown integrator, or a guess, scale
+                or tolerance that does not fit the number of states or is not positive and finite.
         """
         self.state_names = tuple(state_names)
         n = len(self.state_names)
-        if period is not None and not period > 0:
-            raise ArgumentError(f"period must be positive or None, not {period}.")
-        for name, value in (("guess", guess), ("state_scale", state_scale)):
-            if value is not None and np.shape(value) != (n,):
-                raise ArgumentError(
-                    f"{name} has shape {np.shape(value)}; the {n} states need shape ({n},)."
-                )
-        if np.shape(atol) not in {(), (n,)}:
-            raise ArgumentError(f"atol must be one value or {n} values, one per state.")
+        if n == 0:
+            raise ArgumentError("a model needs at least one state; state_names is empty.")
+        if period is not None and not 0 < period < np.inf:
+            raise ArgumentError(f"period must be positive and finite, or None, not {period}.")
+        if integrator not in SOLVERS:
+            names = ", ".join(f'"{name}"' for name in SOLVERS)
+            raise ArgumentError(f'integrator must be one of {names}, not "{integrator}".')
+        low, high = _RTOL_RANGE
+        if not low <= rtol <= high:
+            raise ArgumentError(f"rtol must be from {low:g} to {high:g}, not {rtol}.")
+        if most_steps < 1:
+            raise ArgumentError(f"most_steps must be at least 1, not {most_steps}.")
         self.period = period
-        self.flow_accuracy = 10 * rtol  # local tolerances add up over the steps of a segment
         self._rhs = rhs
         self._jacobian = jacobian
-        self._guess = None if guess is None else np.array(guess, float)
-        self._scale = None if state_scale is None else np.array(state_scale, float)
-        self._integrator = integrator
-        self._rtol = rtol
-        self._atol = np.broadcast_to(np.asarray(atol, float), (n,))
+        self._guess = _per_state("guess", guess, n)
+        self._scale = _per_state("state_scale", state_scale, n, positive=True)
+        if atol is not None and np.ndim(atol) == 0:
+            atol = np.full(n, atol)
+        self._atol = _per_state("atol", atol, n, positive=True)
+        self._integration = Integration(integrator, rtol, most_steps)
+        self._stencil = _STENCIL_STEP
+
+    def scaled_to(self, scale: FloatArray) -> Self:
+        """The same system with typical sizes (n,) for its states, if it was not given its own."""
+        if self._scale is not None:
+            return self
+        other = copy.copy(self)
+        other._scale = np.array(scale, float)
+        return other
+
+    def coarser(self) -> Self:
+        """The same system with ten times the tolerances and twice the steps of differences.
+
+        What changes is a bound of the errors that the integration and the differences leave here.
+        """
+        other = copy.copy(self)
+        rtol = 10 * self._integration.rtol
+        other._integration = replace(self._integration, rtol=rtol)
+        other._atol = None if self._atol is None else 10 * self._atol
+        other._stencil = 2 * self._stencil
+        return other
+
+    @property
+    def flow_accuracy(self) -> float:
+        """Relative error of the flow: local tolerances add up over the steps of a segment."""
+        accuracy = self._integration.rtol
+        if self._atol is not None and self._scale is not None:
+            accuracy += float((self._atol / self._scale).max())
+        return 10 * accuracy
 
     def rhs(self, t: float, x: FloatArray) -> FloatArray:
         """Time derivative of the state, (n,)."""
-        return np.asarray(self._rhs(t, x), float)
+        return self._evaluate("rhs", self._rhs, t, x, (len(self.state_names),))
 
     def jacobian(self, t: float, x: FloatArray) -> FloatArray:
         """Derivative of the right-hand side with respect to the state, (n, n)."""
+        n = len(self.state_names)
         if self._jacobian is not None:
-            return np.asarray(self._jacobian(t, x), float)
-        size = np.ones_like(x) if self._scale is None else self._scale
-        step = _STENCIL_STEP * np.maximum(np.abs(x), size)
+            return self._evaluate("jacobian", self._jacobian, t, x, (n, n))
+        step = self._stencil * np.maximum(np.abs(x), self._sizes(x))
         columns = []
         for shift in np.diag(step):
             near = self.rhs(t, x + shift) - self.rhs(t, x - shift)
@@ -120,7 +165,7 @@ class OdeModel:
 
     def flow(self, x0: FloatArray, t0: float, t1: float) -> FloatArray:
         """State (n,) at t1 from x0 at t0; StateError if the solution does not reach t1."""
-        end: FloatArray = self._integrate(self.rhs, x0, t0, t1, self._atol)[-1]
+        end: FloatArray = self._integrate(self.rhs, x0, t0, t1)[-1]
         return end
 
     def trajectory(
@@ -128,7 +173,7 @@ class OdeModel:
     ) -> Trajectory:
         """Solution at `times` in [t0, t1] (default: 201 even ones), from one integration."""
         at = np.linspace(t0, t1, 201) if times is None else np.asarray(times, float)
-        return Trajectory(at, self._integrate(self.rhs, x0, t0, t1, self._atol, at))
+        return Trajectory(at, self._integrate(self.rhs, x0, t0, t1, times=at))
 
     def flow_jacobian(self, x0: FloatArray, t0: float, t1: float) -> tuple[FloatArray, FloatArray]:
         """State (n,) at t1 and its derivative with respect to x0, (n, n)."""
@@ -140,10 +185,9 @@ class OdeModel:
             return np.concatenate([self.rhs(t, x), tangent.ravel()])
 
         # d x_i / d x_j has the unit of x_i over that of x_j; so has its absolute tolerance.
-        size = np.ones(n) if self._scale is None else self._scale
-        atol = np.concatenate([self._atol, np.outer(self._atol, 1 / size).ravel()])
+        tangent_tolerance = np.outer(self._tolerances(x0), 1 / self._sizes(x0))
         start = np.concatenate([x0, np.eye(n).ravel()])
-        end = self._integrate(variational, start, t0, t1, atol)[-1]
+        end = self._integrate(variational, start, t0, t1, tangent_tolerance.ravel())[-1]
         return end[:n], end[n:].reshape(n, n)
 
     def divergence_integral(self, x0: FloatArray, t0: float, t1: float) -> float:
@@ -153,8 +197,8 @@ class OdeModel:
         def extended(t: float, y: FloatArray) -> FloatArray:
             return np.append(self.rhs(t, y[:n]), np.trace(self.jacobian(t, y[:n])))
 
-        atol = np.append(self._atol, self._rtol)
-        return float(self._integrate(extended, np.append(x0, 0.0), t0, t1, atol)[-1, n])
+        further = np.array([self._integration.rtol])
+        return float(self._integrate(extended, np.append(x0, 0.0), t0, t1, further)[-1, n])
 
     def _integrate(
         self,
@@ -162,25 +206,50 @@ class OdeModel:
         start: FloatArray,
         t0: float,
         t1: float,
-        atol: FloatArray,
+        further_atol: FloatArray | None = None,
         times: FloatArray | None = None,
     ) -> FloatArray:
-        # A solution that runs away overflows before the integrator gives up; StateError says it.
-        with np.errstate(all="ignore"):
-            solution = solve_ivp(
-                function,
-                (t0, t1),
-                start,
-                method=self._integrator,
-                t_eval=[t1] if times is None else times,
-                rtol=self._rtol,
-                atol=atol,
+        """Values (k, n + m) of the states and of m further unknowns with their own tolerances."""
+        atol = self._tolerances(start[: len(self.state_names)])
+        if further_atol is not None:
+            atol = np.concatenate([atol, further_atol])
+        return self._integration.run(function, np.asarray(start, float), t0, t1, atol, times)
+
+    def _tolerances(self, x: FloatArray) -> FloatArray:
+        if self._atol is not None:
+            return self._atol
+        return _ABSOLUTE_PART * self._integration.rtol * self._sizes(x)
+
+    def _sizes(self, x: FloatArray) -> FloatArray:
+        if self._scale is not None:
+            return self._scale
+        # A size for each state would chase the round-off of one that is at rest.
+        return np.full(len(x), float(np.abs(x).max()) or 1.0)
+
+    def _evaluate(
+        self, name: str, function: Rhs, t: float, x: FloatArray, shape: tuple[int, ...]
+    ) -> FloatArray:
+        try:
+            values = np.asarray(function(t, x))
+        except (ArithmeticError, ValueError) as error:
+            raise StateError(f"{name} fails at t = {t:.6g}: {error}") from error
+        if values.shape != shape or values.dtype.kind not in "fiub":
+            raise ArgumentError(
+                f"{name} must return real values of shape {shape} for the states "
+                f"{', '.join(self.state_names)}, not {values.dtype} of shape {values.shape}."
             )
-        states = np.asarray(solution.y, float).T
-        if not solution.success or not np.isfinite(states).all():
-            reached = solution.t[-1] if len(solution.t) else t0
-            raise StateError(
-                f"The integration from t = {t0:.6g} to {t1:.6g} failed after t = {reached:.6g}: "
-                f"{solution.message}"
-            )
-        return states
+        return values.astype(float)
+
+
+def _per_state(
+    name: str, values: npt.ArrayLike | None, n: int, positive: bool = False
+) -> FloatArray | None:
+    if values is None:
+        return None
+    array = np.array(values, float)
+    if array.shape != (n,):
+        raise ArgumentError(f"{name} has shape {array.shape}; the {n} states need shape ({n},).")
+    if not np.isfinite(array).all() or (positive and not (array > 0).all()):
+        kind = "positive and finite" if positive else "finite"
+        raise ArgumentError(f"{name} must hold {kind} values, not {values}.")
+    return array

@@ -84,6 +84,22 @@ class HasStateUnits(Protocol):
 
 
 @runtime_checkable
+class Scalable(Protocol):
+    """The model takes typical sizes of its states, for its tolerances and difference steps."""
+
+    def scaled_to(self, scale: FloatArray, /) -> Model:
+        """The same system with typical sizes (n,), or itself if it has its own."""
+
+
+@runtime_checkable
+class HasCoarser(Protocol):
+    """The model has a less accurate version of itself, whose difference bounds its own errors."""
+
+    def coarser(self) -> VariationalModel:
+        """The same system, its flow and flow Jacobian some times less accurate."""
+
+
+@runtime_checkable
 class HasFlowAccuracy(Protocol):
     """The model declares the relative accuracy of its flow and of its flow Jacobian."""
 

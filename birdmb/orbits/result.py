@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -13,8 +14,11 @@ from birdmb._typing import ComplexArray, FloatArray
 from birdmb.orbits import plots
 from birdmb.orbits.multipliers import Stability, verdict
 from birdmb.orbits.ode import Trajectory
+from birdmb.orbits.periodicity import turns
 from birdmb.orbits.problem import HasDivergence, HasStateUnits, Model
 from birdmb.orbits.segments import JacobianMethod, sample
+
+_FAR_OUTSIDE = 10.0
 
 
 @dataclass(frozen=True)
@@ -44,6 +48,9 @@ class FloquetResult:
         trivial_index: position of the trivial multiplier of an autonomous cycle, the one along the
             orbit, which is 1 but for errors; `None` where there is none.
         jacobian_method: "variational" or "finite-differences".
+        jacobian_gap: largest distance, in state scales, of the variational Jacobians from
+            differences of the flow where these contradict; 0 where they agree. The error bounds
+            hold it.
     """
 
     model: Model
@@ -63,6 +70,15 @@ class FloquetResult:
     modes_along: ComplexArray
     trivial_index: int | None
     jacobian_method: JacobianMethod
+    jacobian_gap: float
+
+    def __str__(self) -> str:
+        """Return the verdict, the period, the multipliers with their errors, and the remarks."""
+        lines = [f"{self.stability}, period {self.period:.9g} s, multipliers"]
+        for value, error in zip(self.multipliers, self.verdict_errors, strict=True):
+            shown = f"{value.real:.9g}" if value.imag == 0 else f"{value:.9g}"
+            lines.append(f"  {shown} +- {error:.1e}")
+        return "\n".join([*lines, *self.remarks])
 
     @property
     def verdict_errors(self) -> FloatArray:
@@ -76,10 +92,57 @@ class FloquetResult:
     def stability(self) -> Stability:
         """Verdict of the non-trivial multipliers; "undecided" if error bars touch |Lambda| = 1.
 
-        The error bars are `verdict_errors`.
+        The error bars are `verdict_errors`. A trivial multiplier far outside its own shows that
+        they do not hold, and leaves the verdict undecided too.
         """
+        if self._trivial_is_off:
+            return "undecided"
         keep = np.arange(len(self.multipliers)) != self.trivial_index
         return verdict(self.multipliers[keep], self.verdict_errors[keep])
+
+    @property
+    def _trivial_is_off(self) -> bool:
+        index, error = self.trivial_index, self.trivial_error
+        if index is None or error is None:
+            return False
+        return bool(error > _FAR_OUTSIDE * self.verdict_errors[index])
+
+    @cached_property
+    def minimal_period(self) -> float:
+        """Period in s after which the orbit first repeats: `period`, or up to a twelfth of it.
+
+        Of a forced system only a period counts in which the right-hand side repeats too.
+        """
+        return self.period / turns(
+            self.model,
+            lambda times: self.trajectory(times).states,
+            self.state_scale,
+            self.start_time,
+            self.period,
+        )
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What to know before the numbers are used, one sentence each; empty if all is well."""
+        remarks = []
+        if self._trivial_is_off:
+            remarks.append(
+                f"The trivial multiplier is off 1 by {self.trivial_error:.1e}, far more than its "
+                f"error bar: do not trust the others to theirs."
+            )
+        if self.jacobian_gap > 0:
+            remarks.append(
+                f"The variational equations contradict differences of the flow, by up to "
+                f"{self.jacobian_gap:.1e}: the right-hand side jumps, or a Jacobian given to the "
+                f'model is wrong. The error bars hold this; jacobian="finite-differences" does '
+                f"without them."
+            )
+        if self.minimal_period < self.period:
+            remarks.append(
+                f"The period is {round(self.period / self.minimal_period)} times the minimal one, "
+                f"{self.minimal_period:.9g} s: the multipliers are powers of those of that orbit."
+            )
+        return tuple(remarks)
 
     @property
     def exponents(self) -> ComplexArray:
@@ -194,6 +257,8 @@ class FloquetResult:
                 "residual": self.residual,
                 "stability": self.stability,
                 "jacobian_method": self.jacobian_method,
+                "jacobian_gap": self.jacobian_gap,
+                "minimal_period": self.minimal_period,
                 "time_units": "s",
             },
         )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import Executor
+from contextlib import suppress
 from typing import Literal, cast
 
 import numpy as np
@@ -13,23 +14,25 @@ import scipy.sparse as sp
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
 from birdmb.orbits.cycle import LimitCycle
-from birdmb.orbits.errors import ArgumentError, ConvergenceError, EquilibriumError
+from birdmb.orbits.errors import (
+    ArgumentError,
+    ConvergenceError,
+    EquilibriumError,
+    require_tolerance,
+)
 from birdmb.orbits.linearisation import linearise
 from birdmb.orbits.newton import Iteration, SolverMethod, solve
 from birdmb.orbits.periodic import periodic_multipliers
+from birdmb.orbits.periodicity import require_period
 from birdmb.orbits.problem import HasInitialGuess, HasLimitCycleType, Model
-from birdmb.orbits.segments import (
-    SAMPLES_PER_SEGMENT,
-    Segments,
-    choose_jacobian,
-    guess_path,
-    sample,
-    typical_sizes,
-)
+from birdmb.orbits.scales import SAMPLES_PER_SEGMENT, declared_scale, lay_out, outgrown
+from birdmb.orbits.segments import Segments, choose_jacobian, sample
 from birdmb.orbits.shooting import ShootingEquations
 
 # A cycle of less than this part of the state scale is the neighbourhood of an equilibrium.
 _SMALLEST_AMPLITUDE = 1e-5
+# Each can shrink a state by 1e7.
+_MOST_RESCALINGS = 3
 
 
 def find_limit_cycle(
@@ -51,7 +54,9 @@ def find_limit_cycle(
 
     Forced systems (`model.period` given): the states at the starts of the segments are unknown.
     Autonomous ones (`model.period` is `None`): so is the period. Only steps that reduce the closure
-    error are accepted. Sources: Keller (1968); Seydel (2010), chapter 7.
+    error are accepted. Where the state scale is taken from the guess and does not fit the orbit
+    found, the search goes on with that of the orbit, its iterations numbered anew. Sources: Keller
+    (1968); Seydel (2010), chapter 7.
 
     Args:
         model: anything that satisfies `birdmb.orbits.Model`.
@@ -61,7 +66,8 @@ def find_limit_cycle(
         segments: number M of shooting segments; more of them tame strongly unstable orbits.
         start_time: time of the first state, in s.
         method: "newton" (line search) or "levenberg-marquardt" (takes longer, starts further away).
-        tolerance: Euclidean norm of the closure errors accepted, in units of the state scale.
+        tolerance: Euclidean norm of the closure errors accepted, in units of the state scale; at
+            most 0.01.
         max_iterations: accepted steps allowed.
         jacobian: "variational" where the model differentiates its flow, "finite-differences"
             (central), or "auto": the first where possible.
@@ -76,45 +82,77 @@ def find_limit_cycle(
         A `LimitCycle`, or the subclass that the model names as `limit_cycle_type`.
 
     Raises:
-        ArgumentError: a guess of the wrong shape or not finite, or a missing or superfluous period
-            guess.
+        ArgumentError: a guess of the wrong shape or not finite, a missing or superfluous period
+            guess, a number out of range, or a period in which the right-hand side does not repeat.
         StateError: the flow fails at the guess.
         ConvergenceError: no orbit was found; it keeps the best point.
         SingularJacobianError: the equations have no unique solution where the search ended.
         EquilibriumError: the search ended on an equilibrium, or at period zero.
     """
+    require_tolerance("tolerance", tolerance)
+    if max_iterations < 1:
+        raise ArgumentError(f"max_iterations must be at least 1, not {max_iterations}.")
     autonomous, period = _period(model, period_guess)
     jacobian_method = choose_jacobian(model, jacobian)
     start = _proposal(model) if guess is None else guess
-    try:
-        path, points = guess_path(model, start, start_time, period, segments)
-        scale = typical_sizes(model, path)
+
+    def search(
+        points: FloatArray, period: float, scale: FloatArray, first: npt.ArrayLike | None = None
+    ) -> tuple[ShootingEquations, FloatArray, FloatArray, tuple[Iteration, ...]]:
         work = Segments(model, scale, start_time, jacobian_method, executor)
         equations = ShootingEquations(work, period, autonomous)
-        first = _first_jacobian(equations, points, period, jacobian_guess)
-        u, residual, iterations = solve(
-            equations,
-            equations.pack(points, period),
-            method=method,
-            tolerance=tolerance,
-            max_iterations=max_iterations,
-            callback=callback,
-            first_jacobian=first,
-        )
+        try:
+            solution = solve(
+                equations,
+                equations.pack(points, period),
+                method=method,
+                tolerance=tolerance,
+                max_iterations=max_iterations,
+                callback=callback,
+                first_jacobian=_first_jacobian(equations, points, period, first),
+            )
+        except ConvergenceError as error:
+            best = error.history[-1]
+            if autonomous:
+                _reject_equilibrium(work, best.x, best.period, error.residual, error.history)
+            raise
+        return equations, *solution
+
+    try:
+        scale, points = lay_out(model, start, start_time, period, segments)
+        require_period(model, points[0], scale, start_time, period)
+        equations, u, residual, iterations = search(points, period, scale, jacobian_guess)
     except StateError as error:
         raise StateError(f"The search cannot start from this guess: {error}") from error
-    except ConvergenceError as error:
-        if autonomous:
-            best = error.history[-1]
-            _reject_equilibrium(work, best.x, best.period, error.residual, error.history)
-        raise
+    if declared_scale(model) is None:
+        for _ in range(_MOST_RESCALINGS):
+            points, period = equations.unpack(u)
+            fitting = outgrown(equations.segments.scale, _along(equations.segments, points, period))
+            if fitting is None:
+                break
+            # What round-off leaves of an orbit at rest need not close on a scale of its own.
+            with suppress(ConvergenceError, StateError):
+                equations, u, residual, further = search(points, period, fitting)
+                iterations += further
     points, period = equations.unpack(u)
-    closure = equations.closure(residual)
     if autonomous:
-        _reject_equilibrium(work, points[0], period, closure, iterations)
+        closure = equations.closure(residual)
+        _reject_equilibrium(equations.segments, points[0], period, closure, iterations)
     kind = model.limit_cycle_type if isinstance(model, HasLimitCycleType) else LimitCycle
     found = linearise(equations, points, period, periodic_multipliers, residual)
     return cast("LimitCycle", kind(**found, iterations=iterations))
+
+
+def _along(work: Segments, points: FloatArray, period: float) -> FloatArray:
+    """States (k, n) along the orbit through `points` (M, n)."""
+    grid = np.linspace(work.start, work.start + period, len(points) + 1)
+    parts = np.arange(SAMPLES_PER_SEGMENT) / SAMPLES_PER_SEGMENT
+    return np.concatenate(
+        [
+            sample(work.model, x, t0, t0 + (t1 - t0) * parts, t1)
+            for x, t0, t1 in zip(points, grid[:-1], grid[1:], strict=True)
+        ]
+    )
 
 
 def _first_jacobian(

@@ -8,28 +8,27 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from concurrent.futures import Executor
-from dataclasses import dataclass
-from typing import Literal, TypeVar
+from dataclasses import dataclass, replace
+from typing import Literal, TypeVar, cast
 
 import numpy as np
-import numpy.typing as npt
 
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
 from birdmb.orbits.errors import ArgumentError
 from birdmb.orbits.problem import (
+    HasCoarser,
     HasFlowAccuracy,
     HasRhs,
-    HasStateScale,
     HasTrajectory,
     Model,
+    Scalable,
     VariationalModel,
 )
 
 JacobianMethod = Literal["variational", "finite-differences"]
 Result = TypeVar("Result")
 
-SAMPLES_PER_SEGMENT = 8
 # In units of the state scale: truncation 4e-10 balances a flow's noise of 1e-14 over 2e-5.
 _STATE_STEP = 2e-5
 _TIME_STEP = 1e-5
@@ -51,52 +50,6 @@ def choose_jacobian(
     if wanted == "variational" and not able:
         raise ArgumentError('jacobian="variational" needs a model with flow_jacobian.')
     return "variational" if able and wanted != "finite-differences" else "finite-differences"
-
-
-def typical_sizes(model: Model, points: FloatArray) -> FloatArray:
-    """Scale (n,) of the states: the model's own, else the largest values along `points` (k, n).
-
-    A state that stays below 1e-8 of the largest one is at rest; its scale is 1. A path that runs
-    away does not set the scale: it counts up to a hundred times its beginning.
-    """
-    if isinstance(model, HasStateScale) and model.state_scale is not None:
-        scale = np.asarray(model.state_scale, float)
-        if scale.shape != points.shape[1:] or not (scale > 0).all():
-            raise ArgumentError(f"state_scale must hold {points.shape[1]} positive values.")
-        return scale
-    size, early = np.abs(points).max(axis=0), np.abs(points[:2]).max(axis=0)
-    size = np.where(early > 0, np.minimum(size, 100 * early), size)
-    return np.where(size > 1e-8 * size.max(), size, 1.0)
-
-
-def guess_path(
-    model: Model, guess: npt.ArrayLike, start_time: float, period: float, segments: int
-) -> tuple[FloatArray, FloatArray]:
-    """Lay a guess out as states (k, n) along a period and points (segments, n) to start from.
-
-    Raises:
-        ArgumentError: the guess is neither one state (n,) nor one for each segment (segments, n).
-        StateError: the flow fails on the way round.
-    """
-    start, n = np.array(guess, float), len(model.state_names)
-    if segments < 1:
-        raise ArgumentError(f"segments must be at least 1, not {segments}.")
-    if start.shape not in {(n,), (segments, n)}:
-        raise ArgumentError(
-            f"the guess has shape {start.shape}; the states {', '.join(model.state_names)} need "
-            f"({n},), or ({segments}, {n}) for the starts of {segments} segment(s)."
-        )
-    if not np.isfinite(start).all():
-        raise ArgumentError("the guess holds values that are not finite.")
-    if start.ndim == 2:
-        return start, start
-    scaled = isinstance(model, HasStateScale) and model.state_scale is not None
-    if scaled and segments == 1:
-        return start[None, :], start[None, :]
-    per_segment = 1 if scaled else SAMPLES_PER_SEGMENT
-    times = start_time + period * np.arange(segments * per_segment) / (segments * per_segment)
-    path = sample(model, start, start_time, times, start_time + period)
-    return path, path[::per_segment]
 
 
 def sample(model: Model, x0: FloatArray, t0: float, times: FloatArray, until: float) -> FloatArray:
@@ -148,6 +101,7 @@ class Segments:
     """The work on the segments of one model: ends, velocities and Jacobians.
 
     `points` (M, n) are the states at the starts of M equal segments of [start, start + period].
+    The model is taken on the scale, if it can be.
     """
 
     model: Model
@@ -155,6 +109,11 @@ class Segments:
     start: float
     jacobian_method: JacobianMethod
     executor: Executor | None = None
+
+    def __post_init__(self) -> None:
+        """Tell the model the scale."""
+        if isinstance(self.model, Scalable):
+            object.__setattr__(self, "model", self.model.scaled_to(self.scale))
 
     def ends(self, points: FloatArray, period: float) -> FloatArray:
         """States (M, n) at the ends of the segments; StateError where the flow fails."""
@@ -177,7 +136,7 @@ class Segments:
         if self.jacobian_method == "variational":
             t = self._times(points, period)
             return np.array(self._map(_flow_jacobian, points, t[:-1], t[1:]))
-        plus, minus, taken = self._both_sides(points, period, _STATE_STEP)
+        plus, minus, taken = self.both_sides(points, period, _STATE_STEP)
         return np.swapaxes((plus - minus) / taken[:, :, None], 1, 2)
 
     def jacobians_and_curvatures(
@@ -192,7 +151,7 @@ class Segments:
         if self.jacobian_method == "variational":
             factors = self.jacobians(points, period)
             return factors, np.zeros_like(factors)
-        plus, minus, taken = self._both_sides(points, period, _STATE_STEP)
+        plus, minus, taken = self.both_sides(points, period, _STATE_STEP)
         factors = (plus - minus) / taken[:, :, None]
         curvatures = 2 * (plus + minus - 2 * ends[:, None, :]) / taken[:, :, None]
         return np.swapaxes(factors, 1, 2), np.swapaxes(curvatures, 1, 2)
@@ -211,8 +170,9 @@ class Segments:
         it closes, as far as the linearised flow tells.
 
         Variational: the factors as they are, with the accuracy that the model declares
-        (`flow_accuracy`), else round-off, plus the change of the Jacobians over a displacement
-        along the correction, in proportion.
+        (`flow_accuracy`), else round-off, plus their distance from those of its coarser version if
+        it has one, plus the change of the Jacobians over a displacement along the correction, in
+        proportion.
 
         Differences: a second estimate by another formula at another place, one-sided differences
         over twice the step less the curvatures, as far as three times the correction on the far
@@ -225,11 +185,12 @@ class Segments:
         """
         eps = float(np.finfo(float).eps)
         length = correction.length
+        declared = self.accuracy * self._column_sizes(factors)
         if self.jacobian_method == "variational":
-            accuracy = eps
-            if isinstance(self.model, HasFlowAccuracy):
-                accuracy = max(eps, self.model.flow_accuracy)
-            bound = accuracy * self._column_sizes(factors)
+            bound = declared
+            if isinstance(self.model, HasCoarser):
+                coarser = replace(self, model=cast("Model", self.model.coarser()))
+                bound = bound + self._column_sizes(coarser.jacobians(points, period) - factors)
             if length > 0:
                 moved = self.jacobians(*correction.displaced(_PROBE))
                 bound = bound + np.abs(moved - factors) * (length / _PROBE)
@@ -245,7 +206,14 @@ class Segments:
         else:
             apart = apart * (length / _PROBE)
         round_off = eps / _STATE_STEP * np.divide.outer(self.scale, self.scale)
-        return factors, np.maximum(np.abs(apart), self._column_sizes(apart)) + round_off
+        noise = np.maximum(np.abs(apart), self._column_sizes(apart)) + round_off
+        return factors, noise + declared
+
+    @property
+    def accuracy(self) -> float:
+        """Relative accuracy of the flow that the model declares, else round-off."""
+        declared = self.model.flow_accuracy if isinstance(self.model, HasFlowAccuracy) else 0.0
+        return max(float(np.finfo(float).eps), declared)
 
     def _column_sizes(self, factors: FloatArray) -> FloatArray:
         # rms over each column in scaled states, given back in the units of each entry
@@ -253,7 +221,7 @@ class Segments:
         rms = np.sqrt(np.mean((factors / units) ** 2, axis=1, keepdims=True))
         return np.asarray(rms * units)
 
-    def _both_sides(
+    def both_sides(
         self, points: FloatArray, period: float, step: float
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Ends (M, n, n) with start state j ahead and behind in row j, and their distances (M, n).
@@ -262,7 +230,7 @@ class Segments:
         """
         shifts = np.diag(step * self.scale)
         ahead, behind = points[:, None, :] + shifts, points[:, None, :] - shifts
-        plus, minus = self._ends_of(np.array([ahead, behind]), period)
+        plus, minus = self.ends_from(np.array([ahead, behind]), period)
         # The steps as represented, not as wanted: x + h - x is not h.
         return plus, minus, np.einsum("kjj->kj", ahead - behind)
 
@@ -272,13 +240,13 @@ class Segments:
         """Ends (M, n, n) with start state j ahead in row j, and by how much (M, n)."""
         ahead = points[:, None, :] + np.diag(step * self.scale)
         taken = np.einsum("kjj->kj", ahead - points[:, None, :])
-        return self._ends_of(ahead[None], period)[0], taken
+        return self.ends_from(ahead[None], period)[0], taken
 
-    def _ends_of(self, starts: FloatArray, period: float) -> FloatArray:
-        """Ends of the segments from starts (..., M, n, n), n of them for each segment."""
-        sides, _, n, _ = starts.shape
+    def ends_from(self, starts: FloatArray, period: float) -> FloatArray:
+        """Ends of the segments from starts (..., M, k, n), k of them for each segment."""
+        sides, _, count, n = starts.shape
         t = self._times(starts[0], period)
-        t0, t1 = (np.tile(np.repeat(side, n), sides) for side in (t[:-1], t[1:]))
+        t0, t1 = (np.tile(np.repeat(side, count), sides) for side in (t[:-1], t[1:]))
         return np.array(self._map(_flow, starts.reshape(-1, n), t0, t1)).reshape(starts.shape)
 
     def _times(self, points: FloatArray, period: float) -> FloatArray:

@@ -84,8 +84,13 @@ class ShootingEquations:
         """Derivative of the residual from the segment Jacobians (M, n, n), and ends if known."""
         m, n = points.shape
         scale = self.segments.scale
-        shift = sp.kron(np.roll(np.eye(m), 1, axis=1), sp.eye_array(n))
-        matrix = sp.block_diag([f * np.divide.outer(1 / scale, 1 / scale) for f in factors]) - shift
+        following = np.roll(np.arange(m), -1)
+        shift = sp.kron(
+            sp.coo_array((np.ones(m), (np.arange(m), following)), shape=(m, m)), sp.eye_array(n)
+        )
+        units = np.divide.outer(scale, scale)
+        # Dense blocks would come back as a matrix of the old kind, of which scipy warns.
+        matrix = sp.block_diag([sp.coo_array(factor / units) for factor in factors]) - shift
         if self.autonomous:
             if ends is None:
                 ends = self.segments.ends(points, period)

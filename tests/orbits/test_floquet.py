@@ -65,7 +65,8 @@ def test_periodic_solver_keeps_small_multipliers():
     assert (np.abs(found.multipliers - exact) < found.errors).all()
     assert (found.errors < 1e-8 * exact).all()
     lost = product_multipliers(factors, np.zeros_like(factors), np.ones(5))
-    assert abs(lost.multipliers[4] - 1e-20) > 1e-17
+    # What round-off leaves of the smallest is chance; that its bound owns up to it is not.
+    assert lost.errors[4] > 1e6 * exact[4]
     assert (np.abs(lost.multipliers - exact) < lost.errors).all()
 
 
