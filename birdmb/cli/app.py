@@ -265,8 +265,3 @@ def validate(
 
 app.add_typer(study_commands)
 app.add_typer(flight_commands)
-
-
-def main() -> None:
-    """Run the command line."""
-    app()

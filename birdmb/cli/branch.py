@@ -14,7 +14,7 @@ import numpy as np
 from rich.console import Console
 
 from birdmb.cli.files import prepare, remove_drafts, write_whole
-from birdmb.cli.interrupt import ending_at_once
+from birdmb.cli.interrupt import tidied
 from birdmb.cli.outcome import InputError, SearchFailed
 from birdmb.cli.progress import Progress
 from birdmb.cli.report import table_of
@@ -79,7 +79,7 @@ def run(
             progress.line(f"{store} keeps what was found; --resume goes on with it.")
 
     # What libraries print on the way, as Exudyn does, is no result.
-    with ending_at_once(tidy), redirect_stdout(sys.stderr), progress.shown():
+    with tidied(tidy), redirect_stdout(sys.stderr), progress.shown():
         branch = _followed(bird, wanted, kept, store, progress)
         written = [] if store is None else [store]
         if out is not None:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, cast
 from rich.console import Console
 
 from birdmb.cli.files import prepare, remove_drafts, write_results
-from birdmb.cli.interrupt import ending_at_once
+from birdmb.cli.interrupt import tidied
 from birdmb.cli.outcome import InputError, SearchFailed
 from birdmb.cli.progress import Progress
 from birdmb.cli.report import print_report
@@ -55,7 +55,7 @@ def run(bird: Bird, search: Search, *, out: Path | None, as_json: bool) -> None:
         if out is not None:
             remove_drafts(out)
 
-    with ending_at_once(tidy), _only_results_on_stdout(), progress.shown():
+    with tidied(tidy), _only_results_on_stdout(), progress.shown():
         cycle = _found(bird, search, progress)
         progress.doing("loads and power over the beat")
         validity = assess_validity(cycle)

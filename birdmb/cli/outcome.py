@@ -8,12 +8,11 @@ from contextlib import contextmanager
 
 import typer
 
+from birdmb.cli.interrupt import INTERRUPTED, INTERRUPTED_LINE
 from birdmb.errors import BirdmbError, OrbitError, StateError
 
 NO_CYCLE = 1
 BAD_INPUT = 2
-INTERRUPTED = 130
-INTERRUPTED_LINE = "Interrupted."
 
 
 class InputError(BirdmbError):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import multiprocessing
 import os
 import signal
 import threading
@@ -10,6 +9,9 @@ from collections.abc import Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import contextmanager, suppress
 from multiprocessing.connection import Connection
+from multiprocessing.context import SpawnContext, SpawnProcess
+from multiprocessing.process import BaseProcess
+from typing import Any
 
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.sweeps.point import prepare
@@ -23,7 +25,7 @@ def process_pool(workers: int | None, bird: Bird, model: ModelFactory | None) ->
     Spawned, not forked: a fork would inherit threads and locks of whatever runs beside it. An
     exception inside ends the processes at once, in the middle of their points.
     """
-    context = multiprocessing.get_context("spawn")
+    context = _Spawning()
     # Nothing is ever sent: that the parent's end is closed, by it or by its death, is the message.
     lifeline, held = context.Pipe(duplex=False)
     pool = ProcessPoolExecutor(
@@ -38,12 +40,28 @@ def process_pool(workers: int | None, bird: Bird, model: ModelFactory | None) ->
                 pool.submit(int)  # the pool starts a process for each task that finds none idle
         yield pool
     except BaseException:
-        held.close()
+        # One that is still importing does not watch its lifeline yet.
+        for process in context.started:
+            process.kill()
         raise
     finally:
         pool.shutdown(cancel_futures=True)
         held.close()
         lifeline.close()
+
+
+class _Spawning(SpawnContext):
+    """Spawns processes, and keeps them in `started`."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.started: list[BaseProcess] = []
+
+    def Process(self, *args: Any, **options: Any) -> SpawnProcess:  # type: ignore[override]  # noqa: N802
+        """Make a process, as the pool does."""
+        made = SpawnProcess(*args, **options)
+        self.started.append(made)
+        return made
 
 
 @contextmanager
