@@ -27,6 +27,7 @@ class WingArrays(NamedTuple):
     feather_rest_angle: FloatArray  # (F,) 0 aft, pi/2 outwards along the bone
     feather_share: FloatArray  # (F, J) of each joint's angle that the feather follows
     feather_hinge: IntArray  # (F,) which of the A angles turns the feather on its hinge, -1: none
+    square_tip: bool
     offset: FloatArray  # (A,) drivers: offset + amplitude sin(2 pi f t + phase)
     amplitude: FloatArray
     phase: FloatArray
@@ -53,6 +54,7 @@ def wing_arrays(bird: Bird) -> WingArrays:
         feather_hinge=np.array(
             [angles.index(f.hinge_name) if f.hinge else -1 for f in feathers], dtype=np.int64
         ),
+        square_tip=bool(np.cos(feathers[-1].rest_angle)>np.cos(np.pi/4)),
         offset=np.array([joint.offset for joint in joints] + rest),
         amplitude=np.array([joint.amplitude for joint in joints] + still),
         phase=np.array([joint.phase for joint in joints] + still),

@@ -149,4 +149,22 @@ def wing_edges(wing: WingArrays, angles: Array) -> tuple[Array, Array]:
     """Vertices of the leading (5, 3) and trailing (F, 3) edge, m, at `angles` (A,) rad."""
     bones = skeleton(wing, angles)
     trailing = trailing_edge(wing, bones, angles)
-    return leading_edge(wing, bones, trailing[-1]), trailing
+    leading = leading_edge(wing, bones, trailing[-1])
+    if wing.square_tip:
+        leading = _without_tip_edge(leading)
+    return leading, trailing
+
+
+@kernel
+def _without_tip_edge(leading: Array) -> Array:
+    """The leading edge (4, 3) m up to a square tip, its last leg lengthened if the tip is raked.
+
+    The wing's last chord passes through the quarter point between this end and the trailing edge's.
+    Lengthening by a third of what the tip edge reaches outwards takes that point half as far, which
+    leaves the wing's area what it is.
+    """
+    hand = leading[-2] - leading[-3]
+    reach = np.sum((leading[-1] - leading[-2]) * hand) / np.sum(hand * hand)
+    shortened = leading[:-1].copy()
+    shortened[-1] += reach / 3.0 * hand
+    return shortened

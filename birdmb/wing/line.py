@@ -1,12 +1,12 @@
 """The lifting line: quarter-chord curve to which every chord is orthogonal.
 
 A station j pairs a point A_j of the leading edge with a point B_j of the trailing edge; its chord
-is c_j = B_j - A_j and its point of the line P_j = 3/4 A_j + 1/4 B_j. Shoulder and wing tip are
-paired with themselves; the pairs between follow from
+is c_j = B_j - A_j and its point of the line P_j = 3/4 A_j + 1/4 B_j. The edges' starts at the
+shoulder are a pair, and so are their ends at a pointed tip; the other pairs follow from
 
     c_j . (P_{j+1} - P_{j-1}) = 0,
 
-solved for one shift d_j a station, by which the chord turns about P_j: A_j = A(s_j - d_j) and
+with differences to one side where `birdmb.wing.line_ends` says so, solved for one shift d_j a station, by which the chord turns about P_j: A_j = A(s_j - d_j) and
 B_j = B(s_j + 3 d_j), with A and B the rounded edges. The system is tridiagonal; Newton's method
 starts at d = 0 on few stations, which are then doubled, so the line is a function of the joint
 angles alone, as smooth as the edges are.
@@ -18,6 +18,7 @@ import numpy as np
 
 from birdmb._kernels import kernel
 from birdmb._typing import Array, ComplexArray, FloatArray
+from birdmb.wing.line_ends import LineEnds, line_ends
 from birdmb.wing.rounded import RoundedPolyline, point, rounded_polyline, tangent
 
 MAX_NEWTON_STEPS = 40
@@ -90,14 +91,28 @@ def _pair(
 
 
 @kernel
-def _obliqueness(A: Array, B: Array) -> Array:
-    """Residual c_j . (P_{j+1} - P_{j-1}) (n,) m^2, zero at both ends."""
+def _steps(A: Array, B: Array, ends: LineEnds, last: float) -> Array:
+    """What the chord of each station is to be orthogonal to, (n, 3) m; the first is not used.
+
+    Central differences of the line but for the ends; `last` is the parameter's last step.
+    """
+    n = A.shape[0]
+    P = 0.75 * A + 0.25 * B
+    steps = np.zeros_like(A)
+    steps[1:-1] = P[2:] - P[:-2]
+    steps[1] -= ends.shoulder * (P[1] - P[0])
+    steps[n - 1] = ends.tip * (P[n - 1] - P[n - 2]) + (1.0 - ends.tip) * last * ends.direction
+    return steps
+
+
+@kernel
+def _obliqueness(A: Array, B: Array, steps: Array, ends: LineEnds) -> Array:
+    """Residual chord . step (n,) m^2, zero where chords are given: at shoulder and pointed tip."""
     n = A.shape[0]
     F = np.zeros(n, A.dtype)
-    for j in range(1, n - 1):
+    for j in range(1, n if ends.square else n - 1):
         for i in range(3):
-            step = 0.75 * (A[j + 1, i] - A[j - 1, i]) + 0.25 * (B[j + 1, i] - B[j - 1, i])
-            F[j] += (B[j, i] - A[j, i]) * step
+            F[j] += (B[j, i] - A[j, i]) * steps[j, i]
     return F
 
 
@@ -109,6 +124,8 @@ def _newton_step(
     shift: FloatArray,
     A: FloatArray,
     B: FloatArray,
+    steps: FloatArray,
+    ends: LineEnds,
     F: FloatArray,
 ) -> FloatArray:
     """Change of the shifts that makes the residual `F` vanish to first order."""
@@ -126,14 +143,19 @@ def _newton_step(
     lower = np.zeros(n)
     diagonal = np.ones(n)
     upper = np.zeros(n)
-    for j in range(1, n - 1):
+    for j in range(1, n if ends.square else n - 1):
         diagonal[j] = 0.0
+        ahead, here, behind = 1.0, 0.0, -1.0
+        if j == 1:
+            here, behind = -ends.shoulder, ends.shoulder - 1.0
+        if j == n - 1:
+            ahead, here, behind = 0.0, ends.tip, -ends.tip
         for i in range(3):
-            step = 0.75 * (A[j + 1, i] - A[j - 1, i]) + 0.25 * (B[j + 1, i] - B[j - 1, i])
             c = B[j, i] - A[j, i]
-            diagonal[j] += dc[j, i] * step
-            upper[j] += c * dP[j + 1, i]
-            lower[j] -= c * dP[j - 1, i]
+            diagonal[j] += dc[j, i] * steps[j, i] + here * c * dP[j, i]
+            if j < n - 1:
+                upper[j] += ahead * c * dP[j + 1, i]
+            lower[j] += behind * c * dP[j - 1, i]
     return _solve_tridiagonal(lower, diagonal, upper, -F)
 
 
@@ -147,15 +169,19 @@ def _solve_shifts(
 ) -> tuple[FloatArray, bool]:
     """Damped Newton iteration for the shifts; also whether it reached the tolerance."""
     shift = guess
+    last = s[-1] - s[-2]
+    ends = line_ends(leading, trailing, last)
     A, B = _pair(leading, trailing, s, shift)
-    F = _obliqueness(A, B)
+    steps = _steps(A, B, ends, last)
+    F = _obliqueness(A, B, steps, ends)
     for _ in range(MAX_NEWTON_STEPS):
-        step = _newton_step(leading, trailing, s, shift, A, B, F)
+        step = _newton_step(leading, trailing, s, shift, A, B, steps, ends, F)
         before = np.sum(F * F)
         damping = 1.0
         while True:
             A, B = _pair(leading, trailing, s, shift + damping * step)
-            F = _obliqueness(A, B)
+            steps = _steps(A, B, ends, last)
+            F = _obliqueness(A, B, steps, ends)
             if np.sum(F * F) <= before or damping < SHORTEST_DAMPING:
                 break
             damping *= 0.5
@@ -203,8 +229,13 @@ def moved_line(
     moving_trailing = rounded_polyline(trailing_edge, rounding)
     moving_shift = shift.astype(np.complex128)
     moving_A, moving_B = _pair(moving_leading, moving_trailing, s, moving_shift)
-    residual_rate = _obliqueness(moving_A, moving_B).imag.copy()
-    moving_shift += 1j * _newton_step(leading, trailing, s, shift, A, B, residual_rate)
+    last = s[-1] - s[-2]
+    moving_ends = line_ends(moving_leading, moving_trailing, last)
+    moving_steps = _steps(moving_A, moving_B, moving_ends, last)
+    rate = _obliqueness(moving_A, moving_B, moving_steps, moving_ends).imag.copy()
+    ends = line_ends(leading, trailing, last)
+    steps = _steps(A, B, ends, last)
+    moving_shift += 1j * _newton_step(leading, trailing, s, shift, A, B, steps, ends, rate)
     moving_A, moving_B = _pair(moving_leading, moving_trailing, s, moving_shift)
     return PairedEdges(moving_A, moving_B, converged)
 
