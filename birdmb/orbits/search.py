@@ -129,7 +129,8 @@ def find_limit_cycle(
             if not _misled(equations, best):
                 raise
             if jacobian == "auto":
-                return solved(equations.by_differences())
+                # On the orbit that these lead to, the two are compared again.
+                return equations, *solved(equations.by_differences())[1:]
             raise type(error)(
                 f"{error} The variational equations contradict differences of the flow there: the "
                 f"right-hand side jumps, or a Jacobian given to the model is wrong; take "

