@@ -12,6 +12,7 @@ import numpy as np
 
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
+from birdmb.orbits.problem import flow_accuracy
 from birdmb.orbits.segments import Segments
 
 # Displacements in units of the state scale, the next one where neighbours at the one before are no
@@ -77,11 +78,13 @@ def _compare(
     # Of a smooth flow the one-sided differences part in proportion to the step, of a kink not.
     kink = np.abs(2 * (plus + minus) / steps - (far_plus + far_minus) / (2 * steps))
     size = 1.0 + np.abs(claimed).max(axis=1, keepdims=True)
-    noise = max(segments.accuracy, _LEAST_ACCURACY) * size / steps
+    noise = max(flow_accuracy(segments.model), _LEAST_ACCURACY) * size / steps
     truncation = np.abs(near - far)
+    # Richardson's extrapolation is off by about the square of what it takes off.
+    extrapolated = truncation * np.minimum(1.0, 10 * truncation / size)
     gap = np.abs((4 * near - far) / 3 - claimed) + kink
     sharp = bool((truncation <= _SHARP * size + _MARGIN * noise).all())
-    return gap, _MARGIN * (truncation + noise), sharp
+    return gap, _MARGIN * (extrapolated + noise), sharp
 
 
 def _one_sided_distance(

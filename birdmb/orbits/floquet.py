@@ -74,4 +74,5 @@ def floquet(
             f"the states; allowed {closure_tolerance:.1g}). Refine it by find_limit_cycle first.",
             closure,
         )
-    return FloquetResult(**linearise(equations, points, period, solver, residual))
+    may_differ = jacobian == "auto"
+    return FloquetResult(**linearise(equations, points, period, solver, residual, may_differ))

@@ -9,7 +9,7 @@ import numpy as np
 from birdmb._typing import FloatArray
 from birdmb.orbits.agreement import jacobian_gaps
 from birdmb.orbits.multipliers import MultiplierSolver, Spectrum, product
-from birdmb.orbits.segments import Correction
+from birdmb.orbits.segments import Correction, Segments
 from birdmb.orbits.shooting import ShootingEquations
 
 # An orbit that moves by less than this part of the state scale in a period stands still.
@@ -22,10 +22,12 @@ def linearise(
     period: float,
     solver: MultiplierSolver,
     residual: FloatArray | None = None,
+    may_differ: bool = False,
 ) -> dict[str, Any]:
     """Linearise the flow along the closed orbit through `points` (M, n).
 
-    `residual` is that of the equations there, if it is known.
+    `residual` is that of the equations there, if it is known. `may_differ`: where differences of
+    the flow contradict the variational equations, take the differences.
 
     The error bounds hold three parts: the errors of the segment Jacobians (differences: from a
     second estimate; variational: the accuracy that the model declares, the distance from a coarser
@@ -51,6 +53,10 @@ def linearise(
     gaps = np.zeros_like(factors)
     if segments.jacobian_method == "variational":
         gaps = jacobian_gaps(segments, points, period, factors, ends)
+        if may_differ and gaps.any():
+            instead = equations.by_differences()
+            found = linearise(instead, points, period, solver, residual)
+            return found | {"jacobian_gap": _largest(gaps, segments)}
     factors, errors = segments.refined(points, period, factors, curvatures, correction)
     errors = errors + gaps
     spectrum = solver(factors, errors, segments.scale)
@@ -72,8 +78,12 @@ def linearise(
         "modes_along": spectrum.modes_along,
         "trivial_index": _trivial(equations, points, period, spectrum),
         "jacobian_method": segments.jacobian_method,
-        "jacobian_gap": float((gaps / np.divide.outer(segments.scale, segments.scale)).max()),
+        "jacobian_gap": _largest(gaps, segments),
     }
+
+
+def _largest(gaps: FloatArray, segments: Segments) -> float:
+    return float((gaps / np.divide.outer(segments.scale, segments.scale)).max())
 
 
 def _trivial(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 from typing import Literal
 
@@ -11,12 +12,16 @@ import numpy.typing as npt
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
 from birdmb.orbits.errors import ArgumentError
-from birdmb.orbits.problem import Model, VariationalModel
+from birdmb.orbits.problem import Model, Scalable, VariationalModel, flow_accuracy
 from birdmb.orbits.scales import lay_out
 
 LyapunovMethod = Literal["variational", "neighbours"]
 
 _BLOCKS = 10
+# A separation that grew or shrank by more is lost in the error of the flow, or no neighbour's.
+_LENGTHS = (0.1, 100.0)
+_MOST_PIECES = 2**12
+_LARGEST_SEPARATION = 0.01
 
 
 @dataclass(frozen=True)
@@ -25,8 +30,9 @@ class LyapunovEstimate:
 
     Attributes:
         exponent: mean rate of separation of neighbours in 1/s.
-        error: its standard error in 1/s from the means over ten blocks of the time used; it shows
-            the scatter, not a drift: look at `running`.
+        error: its standard error in 1/s from the means over ten blocks of the time used, plus what
+            the accuracy of the flow leaves of each separation; it shows the scatter, not a drift:
+            look at `running`.
         times: ends (k,) of the rescaling intervals in s, the transient left out.
         running: exponent (k,) in 1/s as it would be if the computation ended at each of `times`.
         method: "variational" or "neighbours".
@@ -52,6 +58,8 @@ def largest_lyapunov_exponent(
 ) -> LyapunovEstimate:
     """Estimate the largest Lyapunov exponent by rescaling after every interval.
 
+    Also within an interval, in which the separation would shrink to a tenth or grow a hundredfold.
+
     "variational" carries a tangent vector by the flow Jacobian: exact rates, no separation to
     choose; take it where the model has `flow_jacobian`. "neighbours" carries a second solution at
     a small distance (Benettin, Galgani, Giorgilli & Strelcyn 1980), for any flow; its rates err by
@@ -73,9 +81,15 @@ def largest_lyapunov_exponent(
         ArgumentError: wrong shapes or numbers, or a method that the model cannot serve.
         StateError: the solution leaves the model's validity.
     """
-    if not interval > 0 or intervals < _BLOCKS or transient < 0:
+    if not 0 < interval < np.inf or intervals < _BLOCKS or transient < 0:
         raise ArgumentError(
-            f"interval must be positive, intervals at least {_BLOCKS}, transient not negative."
+            f"interval must be positive and finite, intervals at least {_BLOCKS}, transient not "
+            f"negative."
+        )
+    if not 0 < separation <= _LARGEST_SEPARATION:
+        raise ArgumentError(
+            f"separation must be positive and at most {_LARGEST_SEPARATION:g} of the state scale, "
+            f"not {separation}."
         )
     able = isinstance(model, VariationalModel)
     method = method or ("variational" if able else "neighbours")
@@ -84,32 +98,84 @@ def largest_lyapunov_exponent(
     if method == "variational" and not able:
         raise ArgumentError('method="variational" needs a model with flow_jacobian.')
     scale, points = lay_out(model, x0, start_time, interval, 1)
+    if isinstance(model, Scalable):
+        model = model.scaled_to(scale)
+    carrier = _Carrier(model, scale, method, separation)
     x, n = points[0], len(scale)
     direction = np.full(n, 1 / np.sqrt(n))
-    logs = np.empty(transient + intervals)
+    logs, errors = np.empty(transient + intervals), np.empty(transient + intervals)
     grid: FloatArray = start_time + interval * np.arange(transient + intervals + 1.0)
     for i in range(len(logs)):
-        if isinstance(model, VariationalModel) and method == "variational":
-            x, tangent = model.flow_jacobian(x, grid[i], grid[i + 1])
-            grown = tangent @ (direction * scale) / scale
-        else:
-            neighbour = model.flow(x + separation * direction * scale, grid[i], grid[i + 1])
-            x = model.flow(x, grid[i], grid[i + 1])
-            grown = (neighbour - x) / scale / separation
-        length = float(np.linalg.norm(grown))
-        if not np.isfinite(length) or length == 0:
-            raise StateError(
-                f"The neighbouring solution cannot be rescaled at t = {grid[i + 1]:.6g}: the "
-                f"separation grew by the factor {length}."
-            )
-        logs[i], direction = np.log(length), grown / length
+        x, direction, logs[i], errors[i] = carrier.over(x, direction, grid[i], grid[i + 1])
     rates = logs[transient:] / interval
     blocks = [float(block.mean()) for block in np.array_split(rates, _BLOCKS)]
     running = np.cumsum(rates) / np.arange(1, intervals + 1)
     return LyapunovEstimate(
         exponent=float(running[-1]),
-        error=float(np.std(blocks, ddof=1) / np.sqrt(_BLOCKS)),
+        error=float(np.std(blocks, ddof=1) / np.sqrt(_BLOCKS))
+        + float(errors[transient:].mean() / interval),
         times=grid[transient + 1 :],
         running=running,
         method=method,
     )
+
+
+@dataclass
+class _Carrier:
+    """Carries a separation along a solution, in pieces over which it keeps a similar length."""
+
+    model: Model
+    scale: FloatArray
+    method: LyapunovMethod
+    separation: float
+    pieces: int = 1
+
+    def over(
+        self, x: FloatArray, direction: FloatArray, t0: float, t1: float
+    ) -> tuple[FloatArray, FloatArray, float, float]:
+        """State and unit direction (n,) at t1, the logarithm of the growth and its error."""
+        while True:
+            carried = self._in_pieces(x, direction, t0, t1)
+            if carried is not None:
+                return carried
+            self.pieces *= 2
+
+    def _in_pieces(
+        self, x: FloatArray, direction: FloatArray, t0: float, t1: float
+    ) -> tuple[FloatArray, FloatArray, float, float] | None:
+        total, error = 0.0, 0.0
+        times = np.linspace(t0, t1, self.pieces + 1)
+        for begin, end in itertools.pairwise(times.tolist()):
+            x, grown = self._carry(x, direction, begin, end)
+            length = float(np.linalg.norm(grown))
+            low, high = _LENGTHS
+            if not low <= length <= high and self.pieces < _MOST_PIECES:
+                return None
+            if not np.isfinite(length) or length == 0:
+                raise StateError(
+                    f"The neighbouring solution cannot be rescaled at t = {end:.6g}: the "
+                    f"separation grew by the factor {length}."
+                )
+            total += float(np.log(length))
+            error += self._accuracy / length
+            direction = grown / length
+        return x, direction, total, error
+
+    def _carry(
+        self, x: FloatArray, direction: FloatArray, t0: float, t1: float
+    ) -> tuple[FloatArray, FloatArray]:
+        model, scale = self.model, self.scale
+        if isinstance(model, VariationalModel) and self.method == "variational":
+            end, tangent = model.flow_jacobian(x, t0, t1)
+            return end, tangent @ (direction * scale) / scale
+        neighbour = model.flow(x + self.separation * direction * scale, t0, t1)
+        end = model.flow(x, t0, t1)
+        return end, (neighbour - end) / scale / self.separation
+
+    @property
+    def _accuracy(self) -> float:
+        """Error of a carried separation, in units of its length before."""
+        accuracy = flow_accuracy(self.model)
+        if self.method == "variational":
+            return accuracy
+        return accuracy / self.separation + self.separation

@@ -21,6 +21,8 @@ Rhs = Callable[[float, FloatArray], npt.ArrayLike]
 _STENCIL_STEP = 1e-3
 # By default the absolute tolerance of a state is this part of the relative one, of its size.
 _ABSOLUTE_PART = 1e-2
+# Whose reciprocal and tolerance are still normal numbers.
+_SMALLEST_SIZE = 1e-200
 # Below 100 eps scipy's integrators replace the tolerance.
 _RTOL_RANGE = (2.3e-14, 1e-2)
 
@@ -224,7 +226,8 @@ class OdeModel:
         if self._scale is not None:
             return self._scale
         # A size for each state would chase the round-off of one that is at rest.
-        return np.full(len(x), float(np.abs(x).max()) or 1.0)
+        largest = float(np.abs(x).max())
+        return np.full(len(x), largest if largest > _SMALLEST_SIZE else 1.0)
 
     def _evaluate(
         self, name: str, function: Rhs, t: float, x: FloatArray, shape: tuple[int, ...]

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from typing import Any, Protocol, runtime_checkable
 
+import numpy as np
+
 from birdmb._typing import FloatArray
 
 
@@ -106,6 +108,12 @@ class HasFlowAccuracy(Protocol):
     @property
     def flow_accuracy(self) -> float:
         """Relative error, e.g. of the time integration."""
+
+
+def flow_accuracy(model: Model) -> float:
+    """Relative accuracy of the flow that a model declares, else round-off."""
+    declared = model.flow_accuracy if isinstance(model, HasFlowAccuracy) else 0.0
+    return max(float(np.finfo(float).eps), declared)
 
 
 class HasStates(Protocol):

@@ -49,8 +49,8 @@ class FloquetResult:
             orbit, which is 1 but for errors; `None` where there is none.
         jacobian_method: "variational" or "finite-differences".
         jacobian_gap: largest distance, in state scales, of the variational Jacobians from
-            differences of the flow where these contradict; 0 where they agree. The error bounds
-            hold it.
+            differences of the flow where these contradict; 0 where they agree. If the multipliers
+            are from the variational Jacobians, the error bounds hold it.
     """
 
     model: Model
@@ -107,6 +107,12 @@ class FloquetResult:
             return False
         return bool(error > _FAR_OUTSIDE * self.verdict_errors[index])
 
+    @property
+    def _consequence(self) -> str:
+        if self.jacobian_method == "finite-differences":
+            return "The multipliers are those of the differences."
+        return 'The error bars hold this; jacobian="finite-differences" does without them.'
+
     @cached_property
     def minimal_period(self) -> float:
         """Period in s after which the orbit first repeats: `period`, or up to a twelfth of it.
@@ -134,8 +140,7 @@ class FloquetResult:
             remarks.append(
                 f"The variational equations contradict differences of the flow, by up to "
                 f"{self.jacobian_gap:.1e}: the right-hand side jumps, or a Jacobian given to the "
-                f'model is wrong. The error bars hold this; jacobian="finite-differences" does '
-                f"without them."
+                f"model is wrong. {self._consequence}"
             )
         if self.minimal_period < self.period:
             remarks.append(

@@ -13,6 +13,7 @@ import scipy.sparse as sp
 
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
+from birdmb.orbits.agreement import jacobian_gaps
 from birdmb.orbits.cycle import LimitCycle
 from birdmb.orbits.errors import (
     ArgumentError,
@@ -31,6 +32,8 @@ from birdmb.orbits.shooting import ShootingEquations
 
 # A cycle of less than this part of the state scale is the neighbourhood of an equilibrium.
 _SMALLEST_AMPLITUDE = 1e-5
+_Found = tuple[ShootingEquations, FloatArray, FloatArray, tuple[Iteration, ...]]
+
 # Each can shrink a state by 1e7.
 _MOST_RESCALINGS = 3
 
@@ -70,7 +73,8 @@ def find_limit_cycle(
             most 0.01.
         max_iterations: accepted steps allowed.
         jacobian: "variational" where the model differentiates its flow, "finite-differences"
-            (central), or "auto": the first where possible.
+            (central), or "auto": the first where possible and not contradicted by differences of
+            the flow.
         jacobian_guess: segment Jacobians (segments, n, n) of an orbit nearby, such as the
             `segment_jacobians` of the one that the guess comes from. Newton's method tries its
             first steps with them where it would have to find its own by differences; the
@@ -98,25 +102,43 @@ def find_limit_cycle(
 
     def search(
         points: FloatArray, period: float, scale: FloatArray, first: npt.ArrayLike | None = None
-    ) -> tuple[ShootingEquations, FloatArray, FloatArray, tuple[Iteration, ...]]:
+    ) -> _Found:
         work = Segments(model, scale, start_time, jacobian_method, executor)
         equations = ShootingEquations(work, period, autonomous)
-        try:
-            solution = solve(
+        first_jacobian = _first_jacobian(equations, points, period, first)
+        u = equations.pack(points, period)
+
+        def solved(equations: ShootingEquations) -> _Found:
+            found = solve(
                 equations,
-                equations.pack(points, period),
+                u,
                 method=method,
                 tolerance=tolerance,
                 max_iterations=max_iterations,
                 callback=callback,
-                first_jacobian=_first_jacobian(equations, points, period, first),
+                first_jacobian=first_jacobian,
             )
+            return equations, *found
+
+        try:
+            return solved(equations)
         except ConvergenceError as error:
             best = error.history[-1]
             if autonomous:
                 _reject_equilibrium(work, best.x, best.period, error.residual, error.history)
-            raise
-        return equations, *solution
+            if not _misled(equations, best):
+                raise
+            if jacobian == "auto":
+                # On the orbit that these lead to, the two are compared again.
+                return equations, *solved(equations.by_differences())[1:]
+            raise type(error)(
+                f"{error} The variational equations contradict differences of the flow there: the "
+                f"right-hand side jumps, or a Jacobian given to the model is wrong; take "
+                f'jacobian="finite-differences".',
+                error.best_x,
+                error.residual,
+                error.history,
+            ) from error
 
     try:
         scale, points = lay_out(model, start, start_time, period, segments)
@@ -139,8 +161,21 @@ def find_limit_cycle(
         closure = equations.closure(residual)
         _reject_equilibrium(equations.segments, points[0], period, closure, iterations)
     kind = model.limit_cycle_type if isinstance(model, HasLimitCycleType) else LimitCycle
-    found = linearise(equations, points, period, periodic_multipliers, residual)
+    found = linearise(equations, points, period, periodic_multipliers, residual, jacobian == "auto")
     return cast("LimitCycle", kind(**found, iterations=iterations))
+
+
+def _misled(equations: ShootingEquations, best: Iteration) -> bool:
+    """Whether the variational equations are not the derivative of the flow at the point reached."""
+    work = equations.segments
+    if work.jacobian_method != "variational":
+        return False
+    points = best.x[None, :]
+    try:
+        factors, ends = work.jacobians(points, best.period), work.ends(points, best.period)
+        return bool(jacobian_gaps(work, points, best.period, factors, ends).any())
+    except StateError:
+        return False
 
 
 def _along(work: Segments, points: FloatArray, period: float) -> FloatArray:

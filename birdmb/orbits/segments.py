@@ -18,12 +18,12 @@ from birdmb.errors import StateError
 from birdmb.orbits.errors import ArgumentError
 from birdmb.orbits.problem import (
     HasCoarser,
-    HasFlowAccuracy,
     HasRhs,
     HasTrajectory,
     Model,
     Scalable,
     VariationalModel,
+    flow_accuracy,
 )
 
 JacobianMethod = Literal["variational", "finite-differences"]
@@ -185,7 +185,7 @@ class Segments:
         """
         eps = float(np.finfo(float).eps)
         length = correction.length
-        declared = self.accuracy * self._column_sizes(factors)
+        declared = flow_accuracy(self.model) * self._column_sizes(factors)
         if self.jacobian_method == "variational":
             bound = declared
             if isinstance(self.model, HasCoarser):
@@ -208,12 +208,6 @@ class Segments:
         round_off = eps / _STATE_STEP * np.divide.outer(self.scale, self.scale)
         noise = np.maximum(np.abs(apart), self._column_sizes(apart)) + round_off
         return factors, noise + declared
-
-    @property
-    def accuracy(self) -> float:
-        """Relative accuracy of the flow that the model declares, else round-off."""
-        declared = self.model.flow_accuracy if isinstance(self.model, HasFlowAccuracy) else 0.0
-        return max(float(np.finfo(float).eps), declared)
 
     def _column_sizes(self, factors: FloatArray) -> FloatArray:
         # rms over each column in scaled states, given back in the units of each entry

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -26,6 +26,10 @@ class ShootingEquations:
     segments: Segments
     period: float
     autonomous: bool
+
+    def by_differences(self) -> ShootingEquations:
+        """The same equations with Jacobians by differences of the flow."""
+        return replace(self, segments=replace(self.segments, jacobian_method="finite-differences"))
 
     def pack(self, points: FloatArray, period: float) -> FloatArray:
         """Unknowns of the orbit through `points` (M, n)."""
