@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
 
 import typer
 
-from birdmb.cli.files import prepare, write_whole
+from birdmb.cli.files import prepare, write_dataset, write_figure
 from birdmb.studies.sweeps import Study
 from birdmb.topology import parse_assignment
-
-_DPI = 150
 
 
 def run(store: Path, quantities: Sequence[str], at: Sequence[str], out: Path) -> None:
@@ -25,8 +22,6 @@ def run(store: Path, quantities: Sequence[str], at: Sequence[str], out: Path) ->
     }
     prepare(out)
     for name, figure in figures.items():
-        save = partial(figure.savefig, dpi=_DPI, format="png")
-        typer.echo(f"wrote {write_whole(out / name, save)}")
+        typer.echo(f"wrote {write_figure(out / name, figure)}")
     dataset = study.to_xarray(timings=True)
-    save = partial(dataset.to_netcdf, engine="h5netcdf")
-    typer.echo(f"wrote {write_whole(out / f'{store.stem}.nc', save)}")
+    typer.echo(f"wrote {write_dataset(out / f'{store.stem}.nc', dataset)}")

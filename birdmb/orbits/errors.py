@@ -16,6 +16,10 @@ class ArgumentError(OrbitError, ValueError):
     """An argument has the wrong shape or value, or two arguments contradict each other."""
 
 
+class BranchFileError(OrbitError, ValueError):
+    """A file holds no branch, a damaged one, or one of another format."""
+
+
 class NotClosedError(OrbitError):
     """An orbit given as known does not close; `residual` is by how much, in state scales."""
 

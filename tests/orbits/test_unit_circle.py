@@ -1,4 +1,4 @@
-"""Changes of stability that no sign of a test function shows, at parameters known in closed form."""
+"""Changes of stability that no sign of a test function shows, at exact parameters."""
 
 from typing import NamedTuple
 
