@@ -152,7 +152,7 @@ def load_branch(path: str | PathLike[str]) -> Branch:
 
 
 def _branch(data: xr.Dataset) -> Branch:
-    if not data.sizes["point"] or not data.coords["state"].size:
+    if not data.sizes["point"] or "state" not in data.coords or not data.sizes["state"]:
         raise ValueError("it has no points or no states")
     stopped = None
     if "stop_reason" in data.attrs:
