@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -30,6 +30,20 @@ def prepare(directory: Path, option: str = "--out") -> None:
         make_directory(directory)
     except OutputError as error:
         raise InputError(f"{option}: {error}") from error
+
+
+def reject_overwriting(store: Path, out: Path, names: Iterable[str]) -> None:
+    """Refuse to write files into a directory, one of which is the store that they are made of.
+
+    Raises:
+        InputError: one of the names is that of the store.
+    """
+    for name in names:
+        if (out / name).resolve() == store.resolve():
+            raise InputError(
+                f"--out: {out / name} is the study itself and would be written over; give another "
+                f"directory."
+            )
 
 
 def write_dataset(path: Path, dataset: xr.Dataset) -> Path:

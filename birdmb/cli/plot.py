@@ -7,7 +7,7 @@ from pathlib import Path
 
 import typer
 
-from birdmb.cli.files import prepare, write_dataset, write_figure
+from birdmb.cli.files import prepare, reject_overwriting, write_dataset, write_figure
 from birdmb.studies.sweeps import Study
 from birdmb.topology import parse_assignment
 
@@ -20,8 +20,10 @@ def run(store: Path, quantities: Sequence[str], at: Sequence[str], out: Path) ->
         f"{store.stem}_{name}.png" if name else f"{store.stem}.png": study.plot(name, at=fixed)
         for name in (quantities or (None,))
     }
+    data_file = f"{store.stem}.nc"
     prepare(out)
+    reject_overwriting(store, out, [*figures, data_file])
     for name, figure in figures.items():
         typer.echo(f"wrote {write_figure(out / name, figure)}")
     dataset = study.to_xarray(timings=True)
-    typer.echo(f"wrote {write_dataset(out / f'{store.stem}.nc', dataset)}")
+    typer.echo(f"wrote {write_dataset(out / data_file, dataset)}")

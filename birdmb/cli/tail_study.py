@@ -8,7 +8,7 @@ import numpy as np
 import typer
 from rich.console import Console
 
-from birdmb.cli.files import prepare, write_dataset, write_figure
+from birdmb.cli.files import prepare, reject_overwriting, write_dataset, write_figure
 from birdmb.cli.progress import Progress
 from birdmb.cli.sweep import SweepProgress
 from birdmb.studies.tail import (
@@ -35,6 +35,7 @@ def run(bird: Bird, store: Path, *, every: int, workers: int | None, out: Path |
     """Fill the store, say what it holds, and draw it."""
     if out is not None:
         prepare(out)
+        reject_overwriting(store, out, [f"{store.stem}.nc"])
     console = Console(stderr=True)
     with SweepProgress(console) as progress:
         study = tail_study(bird, store, every=every, workers=workers, on_point=progress.update)

@@ -88,7 +88,6 @@ STATEMENTS = [
     "update digests set digest = '' where row = 'point [1]'",
     "alter table points drop column seconds",
     "alter table points rename column result to outcome",
-    "alter table points add column more",
     "pragma user_version = 2",
     "pragma user_version = 4",
     "pragma application_id = 7",

@@ -22,6 +22,7 @@ from birdmb.text import on_one_line
 
 APPLICATION = 0x62697264  # "bird": tells a study from any other SQLite file
 FORMAT = 3
+COLUMNS = "place, parameters, status, reason, start, result, seconds, finished, run"
 _IDENTITY = {"birdmb", "fingerprint", "bird", "model", "search", "trim"}
 
 
@@ -65,7 +66,7 @@ def contents(path: Path, connection: sqlite3.Connection) -> Contents:
         identity = study["identity"]
         if not identity.keys() >= _IDENTITY:
             raise ValueError("it does not say what it was made of")
-        rows = _sound(connection, digests, "point", "select * from points")
+        rows = _sound(connection, digests, "point", f"select {COLUMNS} from points")
         points = dict(_point(row, grid) for row in rows)
     return Contents(identity, grid, points)
 

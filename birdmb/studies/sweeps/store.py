@@ -15,6 +15,7 @@ from typing import Any
 from birdmb.provenance import software
 from birdmb.studies.sweeps.contents import (
     APPLICATION,
+    COLUMNS,
     FORMAT,
     Contents,
     contents,
@@ -101,7 +102,9 @@ class Store:
                 raise SweepError(
                     f"{self._path}: another sweep is filling this store; let it finish, or end it."
                 )
-            self._connection.execute(f"insert into points values ({','.join('?' * 9)})", row)
+            self._connection.execute(
+                f"insert into points ({COLUMNS}) values ({','.join('?' * 9)})", row
+            )
             _seal(self._connection, digest_key("point", row[0]), row)
 
     @contextmanager
