@@ -48,8 +48,11 @@ def continue_branch(
 
     Predictor along the tangent, corrector by multiple shooting on the plane across it (Keller 1977;
     Kuznetsov 2004, chapter 10), steps adapted to the corrector's iterations and to the turn of the
-    tangent. Folds are passed. Sign changes of test functions between points are located by Brent's
-    method along the arclength.
+    tangent. Folds are passed. Between points, sign changes of test functions (fold, branch point,
+    period doubling) and what they leave unexplained of a change in the number of multipliers
+    outside the unit circle are located by Brent's method along the arclength. Crossings between two
+    neighbouring points that cancel, the one outwards and the other inwards, leave no trace there:
+    take shorter steps.
 
     Args:
         family: function of the parameter that returns the model. It may raise a `BirdmbError` where
