@@ -15,3 +15,7 @@ class OrbitError(BirdmbError):
 
 class StateError(BirdmbError):
     """A flow left the states in which its model means anything (NaN, overflow, out of validity)."""
+
+
+class OutputError(BirdmbError):
+    """A file cannot be written: the disk is full, say, or the place is not writable."""

@@ -6,20 +6,28 @@ import json
 import sys
 from contextlib import redirect_stdout
 from dataclasses import dataclass
-from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from rich.console import Console
 
-from birdmb.cli.files import prepare, remove_drafts, write_whole
+from birdmb.cli.files import prepare, write_figure
 from birdmb.cli.interrupt import tidied
 from birdmb.cli.outcome import InputError, SearchFailed
 from birdmb.cli.progress import Progress
 from birdmb.cli.report import table_of
 from birdmb.cli.results import finite
-from birdmb.orbits import Bifurcation, BranchPoint, ConvergenceError, Steps, load_branch
+from birdmb.files import remove_drafts
+from birdmb.orbits import (
+    Bifurcation,
+    BranchFileError,
+    BranchPoint,
+    ConvergenceError,
+    Steps,
+    load_branch,
+)
+from birdmb.provenance import software
 from birdmb.studies.branch import bird_branch
 
 if TYPE_CHECKING:
@@ -35,6 +43,7 @@ _TURNS = {
     "period doubling": "a flight of twice the beat branches off",
     "Neimark-Sacker": "an oscillation over many beats branches off",
     "branch point": "another branch crosses",
+    "multiple": "more cross at once than one name says",
 }
 
 
@@ -86,18 +95,13 @@ def run(
             from birdmb.studies.branch_figure import plot_bird_branch  # noqa: PLC0415 - takes time
 
             progress.doing("drawing branch.png")
-            written.append(
-                write_whole(
-                    out / "branch.png",
-                    lambda draft: plot_bird_branch(branch).savefig(draft, dpi=150, format="png"),
-                )
-            )
+            written.append(write_figure(out / "branch.png", plot_bird_branch(branch)))
     if as_json:
         found = {**_object(branch), "files": list(map(str, written))}
         json.dump(found, sys.stdout, allow_nan=False, indent=2)
         sys.stdout.write("\n")
         return
-    _report(Console(), branch)
+    _report(Console(markup=False), branch)
     for path in written:
         progress.line(f"wrote {path}")
 
@@ -109,10 +113,7 @@ def _prepared(out: Path | None, store: Path | None) -> list[Path]:
         prepare(out)
         directories.append(out)
     if store is not None:
-        try:
-            prepare(store.parent)
-        except InputError as error:
-            raise InputError(str(error).replace("--out", "--store", 1)) from error
+        prepare(store.parent, "--store")
         directories.append(store.parent)
     return directories
 
@@ -127,9 +128,14 @@ def _kept(store: Path | None, resume: bool, progress: Progress) -> Branch | None
     if not resume:
         raise InputError(f"{store} exists: --resume goes on with it, or remove it.")
     try:
-        return load_branch(store)
-    except (OSError, KeyError, ValueError) as error:
-        raise InputError(f"--resume: {store} holds no branch ({error}).") from error
+        kept = load_branch(store)
+    except BranchFileError as error:
+        raise InputError(f"--resume: {error}") from error
+    others = {n: v for n, v in kept.software.items() if v != software().get(n)}
+    if others:
+        listed = ", ".join(f"{name} {version}" for name, version in others.items())
+        progress.line(f"begun with {listed}: the last digits may differ from here on")
+    return kept
 
 
 def _followed(
@@ -217,8 +223,19 @@ def _largest(point: BranchPoint) -> tuple[float, float]:
 def _sentence(found: Bifurcation, parameter: str) -> str:
     return (
         f"{found.kind} at {parameter} = {found.parameter:.7g} ± {found.parameter_error:.0e}: "
-        f"{_TURNS[found.kind]}"
+        f"{_TURNS[found.kind]}; {_crossing(found)}"
     )
+
+
+def _crossing(found: Bifurcation) -> str:
+    """What the multipliers do there."""
+    before, after = found.outside
+    where = ", ".join(_number(value) for value in found.multipliers)
+    return f"Λ = {where}; outside the unit circle {before} before, {after} after"
+
+
+def _number(value: complex) -> str:
+    return f"{value.real:.4g}" if value.imag == 0 else f"{value.real:.4g}{value.imag:+.4g}i"
 
 
 def ending(branch: Branch) -> str:
@@ -276,7 +293,7 @@ def _object(branch: Branch) -> dict[str, object]:
     stopped = branch.stopped
     return {
         **branch.settings,
-        "birdmb_version": version("birdmb"),
+        "birdmb_version": branch.software["birdmb"],
         "state_names": list(branch.state_names),
         "points": [_point_object(point) for point in branch.points],
         "bifurcations": [
@@ -284,6 +301,8 @@ def _object(branch: Branch) -> dict[str, object]:
                 "kind": found.kind,
                 "parameter_error": finite(found.parameter_error),
                 "after": found.after,
+                "crossing": [[float(m.real), float(m.imag)] for m in found.multipliers],
+                "outside": list(found.outside),
                 **_point_object(found.point),
             }
             for found in branch.bifurcations

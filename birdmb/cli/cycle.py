@@ -13,12 +13,13 @@ from typing import TYPE_CHECKING, cast
 
 from rich.console import Console
 
-from birdmb.cli.files import prepare, remove_drafts, write_results
+from birdmb.cli.files import prepare, write_results
 from birdmb.cli.interrupt import tidied
 from birdmb.cli.outcome import InputError, SearchFailed
 from birdmb.cli.progress import Progress
 from birdmb.cli.report import print_report
 from birdmb.cli.results import finite, result_object
+from birdmb.files import remove_drafts
 from birdmb.orbits import ConvergenceError, find_limit_cycle
 from birdmb.studies import assess_validity
 

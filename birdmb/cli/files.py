@@ -1,16 +1,17 @@
-"""The files that `birdmb cycle --out` writes; each is whole or not there."""
+"""The files that commands write, and the directories that they write into."""
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable
-from functools import partial
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from birdmb.cli.outcome import InputError
+from birdmb.errors import OutputError
+from birdmb.files import make_directory, netcdf_bytes, png_bytes, write_whole
 
 if TYPE_CHECKING:
+    import xarray as xr
     from matplotlib.figure import Figure
 
     from birdmb.cli.progress import Progress
@@ -19,36 +20,46 @@ if TYPE_CHECKING:
 _DPI = 150
 
 
-def prepare(directory: Path) -> None:
-    """Make the directory and see that files can be written there, before hours of computing.
+def prepare(directory: Path, option: str = "--out") -> None:
+    """Make the directory of an option and see that files can be written there.
 
     Raises:
         InputError: it cannot be made, or not be written into.
     """
     try:
-        directory.mkdir(parents=True, exist_ok=True)
-        probe = _draft(directory / "probe")
-        probe.touch()
-        probe.unlink()
-    except OSError as error:
-        raise _unwritable(directory, error) from error
+        make_directory(directory)
+    except OutputError as error:
+        raise InputError(f"{option}: {error}") from error
 
 
-def remove_drafts(directory: Path) -> None:
-    """Remove what an interruption left half-written."""
-    for draft in directory.glob(f".*.{os.getpid()}.*"):
-        draft.unlink(missing_ok=True)
+def reject_overwriting(store: Path, out: Path, names: Iterable[str]) -> None:
+    """Refuse to write files into a directory, one of which is the store that they are made of.
+
+    Raises:
+        InputError: one of the names is that of the store.
+    """
+    for name in names:
+        if (out / name).resolve() == store.resolve():
+            raise InputError(
+                f"--out: {out / name} is the study itself and would be written over; give another "
+                f"directory."
+            )
+
+
+def write_dataset(path: Path, dataset: xr.Dataset) -> Path:
+    """Write a dataset as NetCDF."""
+    return write_whole(path, netcdf_bytes(dataset))
+
+
+def write_figure(path: Path, figure: Figure) -> Path:
+    """Write a figure as PNG."""
+    return write_whole(path, png_bytes(figure, _DPI))
 
 
 def write_results(cycle: FlightCycle, directory: Path, progress: Progress) -> list[Path]:
     """Write `cycle.nc` and the figures into a directory; return what was written."""
     progress.doing("writing cycle.nc")
-    written = [
-        write_whole(
-            directory / "cycle.nc",
-            lambda draft: cycle.to_xarray().to_netcdf(draft, engine="h5netcdf"),
-        )
-    ]
+    written = [write_dataset(directory / "cycle.nc", cycle.to_xarray())]
     from birdmb import figures  # noqa: PLC0415 - takes a second
 
     drawings: dict[str, Callable[[FlightCycle], Figure]] = {
@@ -60,28 +71,5 @@ def write_results(cycle: FlightCycle, directory: Path, progress: Progress) -> li
     }
     for name, draw in drawings.items():
         progress.doing(f"drawing {name}")
-        save = partial(draw(cycle).savefig, dpi=_DPI, format="png")
-        written.append(write_whole(directory / name, save))
+        written.append(write_figure(directory / name, draw(cycle)))
     return written
-
-
-def write_whole(path: Path, write: Callable[[Path], object]) -> Path:
-    """Let `write` write a draft beside `path`, and put it in its place once it is whole."""
-    draft = _draft(path)
-    try:
-        write(draft)
-        draft.replace(path)
-    except OSError as error:
-        raise _unwritable(path, error) from error
-    finally:
-        draft.unlink(missing_ok=True)
-    return path
-
-
-def _draft(path: Path) -> Path:
-    return path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
-
-
-def _unwritable(path: Path, error: OSError) -> InputError:
-    reason = (error.strerror or str(error)).lower()
-    return InputError(f"--out: {path} cannot be written ({reason}).")

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
 
 import typer
 
-from birdmb.cli.files import prepare, write_whole
+from birdmb.cli.files import prepare, reject_overwriting, write_dataset, write_figure
 from birdmb.studies.sweeps import Study
 from birdmb.topology import parse_assignment
-
-_DPI = 150
 
 
 def run(store: Path, quantities: Sequence[str], at: Sequence[str], out: Path) -> None:
@@ -23,10 +20,10 @@ def run(store: Path, quantities: Sequence[str], at: Sequence[str], out: Path) ->
         f"{store.stem}_{name}.png" if name else f"{store.stem}.png": study.plot(name, at=fixed)
         for name in (quantities or (None,))
     }
+    data_file = f"{store.stem}.nc"
     prepare(out)
+    reject_overwriting(store, out, [*figures, data_file])
     for name, figure in figures.items():
-        save = partial(figure.savefig, dpi=_DPI, format="png")
-        typer.echo(f"wrote {write_whole(out / name, save)}")
+        typer.echo(f"wrote {write_figure(out / name, figure)}")
     dataset = study.to_xarray(timings=True)
-    save = partial(dataset.to_netcdf, engine="h5netcdf")
-    typer.echo(f"wrote {write_whole(out / f'{store.stem}.nc', save)}")
+    typer.echo(f"wrote {write_dataset(out / data_file, dataset)}")

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 
 import typer
 
 import birdmb
-from birdmb.cli.files import write_whole
 from birdmb.cli.outcome import InputError
 from birdmb.studies.scaling import scale_bird
 from birdmb.topology import load_bird
@@ -21,8 +19,7 @@ def run(mass: float, like: Path | None, out: Path | None) -> None:
     if out is None:
         typer.echo(bird_text(scaled.bird, scaled.assumptions), nl=False)
         return
-    write = partial(write_bird, scaled.bird, about=scaled.assumptions)
-    typer.echo(f"wrote {write_whole(out, write)}")
+    typer.echo(f"wrote {write_bird(scaled.bird, out, scaled.assumptions)}")
 
 
 def _ibis() -> Path:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 
 import numpy as np
 import typer
 from rich.console import Console
 
-from birdmb.cli.files import prepare, write_whole
+from birdmb.cli.files import prepare, reject_overwriting, write_dataset, write_figure
 from birdmb.cli.progress import Progress
 from birdmb.cli.sweep import SweepProgress
 from birdmb.studies.tail import (
@@ -29,7 +28,6 @@ from birdmb.studies.tail_figures import (
 from birdmb.studies.validity import LARGEST_TAIL_ANGLE
 from birdmb.topology import Bird
 
-_DPI = 150
 _CURVES = 4
 
 
@@ -37,6 +35,7 @@ def run(bird: Bird, store: Path, *, every: int, workers: int | None, out: Path |
     """Fill the store, say what it holds, and draw it."""
     if out is not None:
         prepare(out)
+        reject_overwriting(store, out, [f"{store.stem}.nc"])
     console = Console(stderr=True)
     with SweepProgress(console) as progress:
         study = tail_study(bird, store, every=every, workers=workers, on_point=progress.update)
@@ -74,10 +73,8 @@ def run(bird: Bird, store: Path, *, every: int, workers: int | None, out: Path |
         curves = stability_openings(bird, picked.tolist())
         figures["stability_opening"] = plot_stability_openings(curves, bird.name)
     for name, figure in figures.items():
-        save = partial(figure.savefig, dpi=_DPI, format="png")
-        typer.echo(f"wrote {write_whole(out / f'{store.stem}_{name}.png', save)}")
-    save = partial(data.to_netcdf, engine="h5netcdf")
-    typer.echo(f"wrote {write_whole(out / f'{store.stem}.nc', save)}")
+        typer.echo(f"wrote {write_figure(out / f'{store.stem}_{name}.png', figure)}")
+    typer.echo(f"wrote {write_dataset(out / f'{store.stem}.nc', data)}")
     for each in curves:
         for curve in each.curves:
             (a0, b0), (a1, b1) = curve.points[[0, -1]]

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import partial
 from pathlib import Path
 
 import typer
 from rich.console import Console
 
-from birdmb.cli.files import write_whole
 from birdmb.cli.progress import Progress
 from birdmb.cli.results import verdict_sentence
 from birdmb.models import MultibodyModel, RigidModel
@@ -53,5 +51,4 @@ def run(
     if out is not None:
         values = ", ".join(f"{name} = {value:.6g}" for name, value in found.values.items())
         about = [f"{bird.name}, trimmed: {values}."]
-        write = partial(write_bird, found.bird, about=about)
-        typer.echo(f"wrote {write_whole(out, write)}")
+        typer.echo(f"wrote {write_bird(found.bird, out, about)}")

@@ -11,7 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
-from birdmb.figures.style import LINE, MEAN, beat_axis, label_beat, model_of
+from birdmb.figures.style import LINE, MEAN, beat_axis, label_beat, model_of, title_of
+from birdmb.text import in_figure
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
@@ -28,7 +29,7 @@ def loads_and_power(cycle: FlightCycle) -> Figure:
     draw_wing_power(top, cycle)
     draw_joint_powers(bottom, cycle)
     label_beat(bottom)
-    figure.suptitle(f"{model_of(cycle).bird.name}: loads and power over a beat", fontsize="medium")
+    figure.suptitle(f"{title_of(cycle)}: loads and power over a beat", fontsize="medium")
     return figure
 
 
@@ -67,7 +68,7 @@ def draw_joint_powers(axes: Axes, cycle: FlightCycle) -> None:
             cycle.beat.joint_power[:, i],
             color=colours[i % len(colours)],
             lw=1.3,
-            label=f"{name}  {mean:+.2f} W".replace("-", "−"),
+            label=f"{in_figure(name)}  {mean:+.2f} W".replace("-", "−"),
         )
     axes.set_ylabel("joint power (W)")
     axes.legend(

@@ -8,7 +8,8 @@ import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
 from birdmb._typing import FloatArray
-from birdmb.figures.style import DRIVER, LINE, beat_axis, label_beat, model_of, symbol
+from birdmb.figures.style import DRIVER, LINE, beat_axis, label_beat, model_of, symbol, title_of
+from birdmb.text import in_figure
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
@@ -25,7 +26,7 @@ def states(cycle: FlightCycle) -> Figure:
     rows = len(cycle.state_names) // 2
     figure = Figure(figsize=(8.5, 0.7 + 1.75 * rows), layout="constrained")
     draw_states(figure, cycle)
-    figure.suptitle(f"{model_of(cycle).bird.name}: states over a beat", fontsize="medium")
+    figure.suptitle(f"{title_of(cycle)}: states over a beat", fontsize="medium")
     return figure
 
 
@@ -56,7 +57,7 @@ def _label(name: str) -> str:
     if not name.endswith(_RATE):
         return symbol(name).replace(".", "\n")
     place, _, motion = name.removesuffix(_RATE).partition(".")
-    return f"{place}\n{motion} rate"
+    return in_figure(place) + "\n" + in_figure(f"{motion} rate")
 
 
 def _driver(cycle: FlightCycle, state: str) -> FloatArray | None:

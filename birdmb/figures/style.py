@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from birdmb._typing import FloatArray
+from birdmb.text import in_figure
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
@@ -27,9 +28,14 @@ def model_of(cycle: FlightCycle) -> WingModel:
     return cast("WingModel", cycle.model)
 
 
+def title_of(cycle: FlightCycle) -> str:
+    """Name of the bird as it is written in a figure."""
+    return in_figure(model_of(cycle).bird.name)
+
+
 def symbol(name: str) -> str:
     """Name of a state as it is written in a figure."""
-    return _SYMBOLS.get(name, name)
+    return _SYMBOLS.get(name, in_figure(name))
 
 
 def stroke_speed(cycle: FlightCycle) -> FloatArray:

@@ -1,11 +1,13 @@
 """Periodic orbits and their Floquet multipliers, for any system with a flow."""
 
 from birdmb.orbits.boundary import BoundaryPoint, StabilityBoundary, stability_boundary
-from birdmb.orbits.branch import Bifurcation, Branch, BranchPoint, load_branch
+from birdmb.orbits.branch import Branch, load_branch
+from birdmb.orbits.branch_points import Bifurcation, BranchPoint
 from birdmb.orbits.continuation import continue_branch
 from birdmb.orbits.cycle import LimitCycle
 from birdmb.orbits.errors import (
     ArgumentError,
+    BranchFileError,
     BranchStopped,
     ConvergenceError,
     EquilibriumError,
@@ -29,6 +31,7 @@ __all__ = [
     "Bifurcation",
     "BoundaryPoint",
     "Branch",
+    "BranchFileError",
     "BranchPoint",
     "BranchStopped",
     "ConvergenceError",

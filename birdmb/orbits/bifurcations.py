@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from birdmb._typing import ComplexArray, FloatArray
-from birdmb.orbits.branch import BifurcationKind, BranchPoint
+from birdmb.orbits.branch_points import BifurcationKind, BranchPoint
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,8 @@ from matplotlib.figure import Figure
 
 from birdmb.errors import BirdmbError
 from birdmb.orbits import plots
-from birdmb.orbits.branch import Bifurcation, Branch
+from birdmb.orbits.branch import Branch
+from birdmb.orbits.branch_points import Bifurcation
 from birdmb.orbits.continuation import continue_branch
 from birdmb.orbits.errors import BIFURCATIONS_FOUND, ArgumentError
 from birdmb.orbits.extended import Family
@@ -128,7 +129,10 @@ def stability_boundary(
 
 
 def _up_to_change(
-    family: Family, parameter_range: tuple[float, float], guess: npt.ArrayLike | None, **options: Any
+    family: Family,
+    parameter_range: tuple[float, float],
+    guess: npt.ArrayLike | None,
+    **options: Any,
 ) -> Branch:
     """The branch up to its first change of stability, or as far as it goes."""
     branch = continue_branch(family, parameter_range, guess, max_bifurcations=1, **options)

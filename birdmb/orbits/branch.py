@@ -2,99 +2,29 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Mapping, Sequence
+import io
+import json
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from os import PathLike
 from pathlib import Path
-from typing import Literal, cast
 
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from birdmb._typing import BoolArray, ComplexArray, FloatArray
+from birdmb._typing import FloatArray
+from birdmb.files import netcdf_bytes, write_whole
 from birdmb.orbits import plots
-from birdmb.orbits.errors import BranchStopped
-from birdmb.orbits.multipliers import Stability
+from birdmb.orbits.branch_dataset import arrays_of, bifurcations_of, points_of
+from birdmb.orbits.branch_points import Bifurcation, BranchPoint
+from birdmb.orbits.errors import BranchFileError, BranchStopped
+from birdmb.provenance import software
+from birdmb.seal import sealed, unsealed
+from birdmb.text import on_one_line
 
-BifurcationKind = Literal[
-    "fold", "period doubling", "Neimark-Sacker", "branch point", "multiple"
-]
-
+_FORMAT = 2
 _SETTING = "setting_"
-
-
-@dataclass(frozen=True)
-class BranchPoint:
-    """One orbit of a branch: `floquet(family(parameter), points, period, ...)` has all of it.
-
-    Attributes:
-        parameter: value of the parameter.
-        period: period in s.
-        points: states (M, n) at the starts of the shooting segments.
-        residual: closure error in the units of the states.
-        multipliers: (n,), largest modulus first.
-        multiplier_errors: bound (n,) of the error of each.
-        trivial_index: position of the trivial multiplier, `None` for a forced system.
-        stability: verdict of the multipliers.
-        tangent: unit tangent of the branch in scaled unknowns, in the direction of travel.
-        next_step: length of the step that was to follow, from which a continuation resumes.
-        observables: what the caller asked to be recorded of the orbit, by name.
-    """
-
-    parameter: float
-    period: float
-    points: FloatArray
-    residual: float
-    multipliers: ComplexArray
-    multiplier_errors: FloatArray
-    trivial_index: int | None
-    stability: Stability
-    tangent: FloatArray
-    next_step: float
-    observables: dict[str, float] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class Bifurcation:
-    """A located crossing of the unit circle by one or more multipliers.
-
-    Attributes:
-        kind: "fold" (the branch turns, multiplier 1), "period doubling" (multiplier -1),
-            "Neimark-Sacker" (complex pair on the unit circle), "branch point" (multiplier 1, the
-            branch does not turn) or "multiple": more multipliers cross at once than these kinds
-            have, as in several copies of one system, in symmetric systems, and where a pair crosses
-            at 1 or -1 (the strong resonances 1:1 and 1:2). `multipliers` says which.
-        point: the orbit there.
-        parameter_error: bound of the error of the parameter that comes from the location and from
-            the error bounds of the multipliers.
-        after: index of the branch point before it.
-        crossing: mask (n,) of the multipliers that cross.
-        outside: numbers of multipliers outside the unit circle before and after, in the direction
-            of travel; those that stay on the circle all along the branch are not counted.
-    """
-
-    kind: BifurcationKind
-    point: BranchPoint
-    parameter_error: float
-    after: int
-    crossing: BoolArray
-    outside: tuple[int, int]
-
-    @property
-    def parameter(self) -> float:
-        """Value of the parameter."""
-        return self.point.parameter
-
-    @property
-    def multipliers(self) -> ComplexArray:
-        """Multipliers (k,) that cross the unit circle."""
-        return np.asarray(self.point.multipliers[self.crossing])
-
-    @property
-    def changes_stability(self) -> bool:
-        """Whether orbits are stable, or not known to be unstable, on one of its two sides alone."""
-        return (self.outside[0] == 0) != (self.outside[1] == 0)
 
 
 @dataclass(frozen=True)
@@ -111,6 +41,8 @@ class Branch:
         stopped: why the branch ended early; `None` if it reached an end of its parameter range.
         settings: what the caller wants kept with the branch, by name: how the orbits were computed,
             of which system.
+        software: versions of the packages that computed the branch; several, in the order of
+            travel, where it was resumed with another one.
     """
 
     parameter_name: str
@@ -121,6 +53,7 @@ class Branch:
     bifurcations: tuple[Bifurcation, ...]
     stopped: BranchStopped | None
     settings: Mapping[str, str | float] = field(default_factory=dict)
+    software: Mapping[str, str] = field(default_factory=software)
 
     @property
     def parameters(self) -> FloatArray:
@@ -130,25 +63,14 @@ class Branch:
     def to_xarray(self) -> xr.Dataset:
         """Return the branch as a labelled dataset with real variables, fit for NetCDF.
 
-        Dimensions: point, state, segment, multiplier, unknown, bifurcation; variables of
+        Dimensions: point, state, segment, multiplier, unknown, bifurcation, side; variables of
         bifurcations begin with `bifurcation_`.
         """
-        located = [bifurcation.point for bifurcation in self.bifurcations]
-        kinds = [bifurcation.kind for bifurcation in self.bifurcations]
-        data = _stack(self.points, "point")
-        if located:
-            data |= {f"bifurcation_{k}": v for k, v in _stack(located, "bifurcation").items()}
-        data["bifurcation_kind"] = xr.DataArray(np.array(kinds, dtype="U16"), dims="bifurcation")
-        for name in ("parameter_error", "after"):
-            values = [getattr(bifurcation, name) for bifurcation in self.bifurcations]
-            data[f"bifurcation_{name}"] = xr.DataArray(np.array(values), dims="bifurcation")
-        if located:
-            crossing = [bifurcation.crossing for bifurcation in self.bifurcations]
-            outside = [bifurcation.outside for bifurcation in self.bifurcations]
-            data["bifurcation_crossing"] = (("bifurcation", "multiplier"), np.array(crossing))
-            data["bifurcation_outside"] = (("bifurcation", "side"), np.array(outside))
+        data = arrays_of(self.points, self.bifurcations)
         data["state_scale"] = xr.DataArray(self.state_scale, dims="state")
         attrs: dict[str, str | float] = {
+            "format": _FORMAT,
+            "software": json.dumps(dict(self.software)),
             "parameter_name": self.parameter_name,
             "start_time": self.start_time,
         }
@@ -157,22 +79,19 @@ class Branch:
             attrs |= {
                 "stop_reason": self.stopped.reason,
                 "stop_parameter": self.stopped.parameter,
-                "stop_detail": self.stopped.detail,
+                "stop_detail": on_one_line(self.stopped.detail),
             }
         return xr.Dataset(data, coords={"state": list(self.state_names)}, attrs=attrs)
 
-    def save(self, path: str | Path) -> None:
+    def save(self, path: str | PathLike[str]) -> None:
         """Write the branch to a NetCDF file, from which `load_branch` and a continuation resume.
 
-        A file of that name is replaced only once the new one is whole.
+        A file of that name is replaced only once the new one is whole on the disk.
+
+        Raises:
+            OutputError: the file cannot be written.
         """
-        path = Path(path)
-        draft = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
-        try:
-            self.to_xarray().to_netcdf(draft, engine="h5netcdf")
-            draft.replace(path)
-        finally:
-            draft.unlink(missing_ok=True)
+        write_whole(path, sealed(netcdf_bytes(self.to_xarray())))
 
     def plot(self, quantity: str | None = None) -> Figure:
         """Draw a quantity (a state's name, "period" or an observable) and the multipliers' moduli.
@@ -196,24 +115,45 @@ class Branch:
         return point.observables[quantity]
 
 
-def load_branch(path: str | Path) -> Branch:
-    """Read a branch that `Branch.save` wrote."""
-    with xr.open_dataset(path, engine="h5netcdf") as stored:
-        data = stored.load()
-    bifurcations = []
-    if data.sizes["bifurcation"]:
-        for i, point in enumerate(_unstack(data, "bifurcation_", "bifurcation")):
-            row = data.isel(bifurcation=i)
-            bifurcations.append(
-                Bifurcation(
-                    kind=cast("BifurcationKind", str(row["bifurcation_kind"].values)),
-                    point=point,
-                    parameter_error=float(row["bifurcation_parameter_error"]),
-                    after=int(row["bifurcation_after"]),
-                    crossing=row["bifurcation_crossing"].values.astype(bool),
-                    outside=tuple(map(int, row["bifurcation_outside"].values)),
-                )
+def load_branch(path: str | PathLike[str]) -> Branch:
+    """Read a branch that `Branch.save` wrote.
+
+    Raises:
+        BranchFileError: there is no such file, it holds no branch, is damaged or of another format.
+    """
+    path = Path(path)
+    try:
+        file = path.read_bytes()
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise BranchFileError(f"{path} cannot be read ({reason.lower()}).") from error
+    try:
+        content = unsealed(file)
+        if content is None:
+            raise BranchFileError(
+                f"{path} holds no branch, only part of one, or one of birdmb 0.1.0 or older; "
+                f"remove it to begin anew, or give another file."
             )
+        with xr.open_dataset(io.BytesIO(content), engine="h5netcdf") as stored:
+            data = stored.load()
+        if data.attrs.get("format") != _FORMAT:
+            raise BranchFileError(
+                f"{path} is of format {data.attrs.get('format')}; this birdmb reads branches of "
+                f"format {_FORMAT}: remove it to begin anew, or give another file."
+            )
+        return _branch(data)
+    except (OSError, ValueError, LookupError, TypeError, AttributeError, RuntimeError) as error:
+        if isinstance(error, BranchFileError):
+            raise
+        reason = on_one_line(str(error)) or type(error).__name__
+        raise BranchFileError(
+            f"{path} is damaged ({reason}); restore it from a copy, or remove it to begin anew."
+        ) from error
+
+
+def _branch(data: xr.Dataset) -> Branch:
+    if not data.sizes["point"] or "state" not in data.coords or not data.sizes["state"]:
+        raise ValueError("it has no points or no states")
     stopped = None
     if "stop_reason" in data.attrs:
         stopped = BranchStopped(
@@ -226,8 +166,8 @@ def load_branch(path: str | Path) -> Branch:
         state_names=tuple(str(name) for name in data["state"].values),
         state_scale=data["state_scale"].values,
         start_time=float(data.attrs["start_time"]),
-        points=tuple(_unstack(data, "", "point")),
-        bifurcations=tuple(bifurcations),
+        points=points_of(data),
+        bifurcations=bifurcations_of(data),
         stopped=stopped,
         settings={
             str(key).removeprefix(_SETTING): value.item()
@@ -236,55 +176,5 @@ def load_branch(path: str | Path) -> Branch:
             for key, value in data.attrs.items()
             if str(key).startswith(_SETTING)
         },
+        software=json.loads(data.attrs["software"]),
     )
-
-
-def _stack(points: Sequence[BranchPoint], dim: str) -> dict[str, xr.DataArray]:
-    def array(values: list[object], *dims: str) -> xr.DataArray:
-        return xr.DataArray(np.array(values), dims=(dim, *dims))
-
-    data = {
-        "parameter": array([p.parameter for p in points]),
-        "period": array([p.period for p in points]),
-        "states": array([p.points for p in points], "segment", "state"),
-        "residual": array([p.residual for p in points]),
-        "multiplier_real": array([p.multipliers.real for p in points], "multiplier"),
-        "multiplier_imag": array([p.multipliers.imag for p in points], "multiplier"),
-        "multiplier_error": array([p.multiplier_errors for p in points], "multiplier"),
-        # NetCDF has no missing integers.
-        "trivial_index": array(
-            [np.nan if p.trivial_index is None else p.trivial_index for p in points]
-        ),
-        "stability": array([p.stability for p in points]),
-        "tangent": array([p.tangent for p in points], "unknown"),
-        "next_step": array([p.next_step for p in points]),
-    }
-    for name in points[0].observables:
-        data[f"observable_{name}"] = array([p.observables[name] for p in points])
-    return data
-
-
-def _unstack(data: xr.Dataset, prefix: str, dim: str) -> list[BranchPoint]:
-    start = f"{prefix}observable_"
-    observables = [str(key) for key in data.data_vars if str(key).startswith(start)]
-    points = []
-    for i in range(data.sizes[dim]):
-        row = data.isel({dim: i})
-        real, imag = row[f"{prefix}multiplier_real"], row[f"{prefix}multiplier_imag"]
-        trivial = float(row[f"{prefix}trivial_index"])
-        points.append(
-            BranchPoint(
-                parameter=float(row[f"{prefix}parameter"]),
-                period=float(row[f"{prefix}period"]),
-                points=row[f"{prefix}states"].values,
-                residual=float(row[f"{prefix}residual"]),
-                multipliers=real.values + 1j * imag.values,
-                multiplier_errors=row[f"{prefix}multiplier_error"].values,
-                trivial_index=None if np.isnan(trivial) else int(trivial),
-                stability=cast("Stability", str(row[f"{prefix}stability"].values)),
-                tangent=row[f"{prefix}tangent"].values,
-                next_step=float(row[f"{prefix}next_step"]),
-                observables={key.removeprefix(start): float(row[key]) for key in observables},
-            )
-        )
-    return points

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Executor
 from pathlib import Path
 from typing import Literal
@@ -11,12 +11,14 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from birdmb.orbits.branch import Bifurcation, Branch, BranchPoint
+from birdmb.orbits.branch import Branch
+from birdmb.orbits.branch_points import Bifurcation, BranchPoint
 from birdmb.orbits.errors import ArgumentError, BranchStopped, SingularJacobianError
 from birdmb.orbits.extended import ExtendedEquations, Family
 from birdmb.orbits.search import find_limit_cycle
 from birdmb.orbits.segments import choose_jacobian
 from birdmb.orbits.tracer import Observables, Steps, Tracer
+from birdmb.provenance import software
 
 _DEFAULT_STEPS = Steps()
 
@@ -46,8 +48,11 @@ def continue_branch(
 
     Predictor along the tangent, corrector by multiple shooting on the plane across it (Keller 1977;
     Kuznetsov 2004, chapter 10), steps adapted to the corrector's iterations and to the turn of the
-    tangent. Folds are passed. Sign changes of test functions between points are located by Brent's
-    method along the arclength.
+    tangent. Folds are passed. Between points, sign changes of test functions (fold, branch point,
+    period doubling) and what they leave unexplained of a change in the number of multipliers
+    outside the unit circle are located by Brent's method along the arclength. Crossings between two
+    neighbouring points that cancel, the one outwards and the other inwards, leave no trace there:
+    take shorter steps.
 
     Args:
         family: function of the parameter that returns the model. It may raise a `BirdmbError` where
@@ -76,15 +81,21 @@ def continue_branch(
         The branch. If it ended before an end of the range, `stopped` says why; it can be raised.
 
     Raises:
+        ArgumentError: an argument contradicts another, a name cannot be saved, or `resume` was
+            computed by another version of birdmb.
+        OutputError: `store` cannot be written; it keeps what it held before.
         ConvergenceError: no orbit at the start of the range (other errors of `find_limit_cycle`
             likewise). Later failures end the branch instead.
     """
     first, last = map(float, parameter_range)
     if first == last:
         raise ArgumentError("parameter_range must have two different ends.")
+    versions = software() if resume is None else _continued(resume.software)
+    _reject_names(parameter_name, observables or {}, settings or {})
     family = functools.lru_cache(maxsize=8)(family)
     begin = first if resume is None else resume.points[-1].parameter
     model = family(begin)
+    _reject_texts(model.state_names)
     if resume is None:
         cycle = find_limit_cycle(
             model,
@@ -140,6 +151,7 @@ def continue_branch(
             bifurcations=tuple(bifurcations),
             stopped=stopped,
             settings=dict(settings or {}),
+            software=versions,
         )
         if store is not None:
             branch.save(store)
@@ -159,3 +171,48 @@ def continue_branch(
         if callback is not None:
             callback(item)
     return kept(tracer.stopped)
+
+
+def _continued(before: Mapping[str, str]) -> dict[str, str]:
+    """Versions of a branch that was begun with some versions and is resumed with those here.
+
+    Raises:
+        ArgumentError: birdmb itself is of another version, so that orbits may be others.
+    """
+    versions = {}
+    for name, now in software().items():
+        then = before.get(name, "unknown")
+        if name == "birdmb" and then != now:
+            raise ArgumentError(
+                f"the branch to resume was computed by birdmb {then}, this is {now}: resume it "
+                f"with that version, or follow the branch anew."
+            )
+        versions[name] = then if then.rpartition(", ")[2] == now else f"{then}, {now}"
+    return versions
+
+
+def _reject_names(
+    parameter_name: str, observables: Observables, settings: Mapping[str, str | float]
+) -> None:
+    """Refuse before any computing what no file could keep afterwards."""
+    _reject_texts([parameter_name, *observables, *settings, *settings.values()])
+    for name in observables:
+        if "/" in name:
+            raise ArgumentError(f"the observable {name} cannot have a slash in its name.")
+
+
+def _reject_texts(texts: Iterable[object]) -> None:
+    for text in texts:
+        if isinstance(text, str) and not _can_be_stored(text):
+            raise ArgumentError(
+                f"{text!a} cannot be kept in a file: it has a null character, or characters "
+                f"that are none."
+            )
+
+
+def _can_be_stored(text: str) -> bool:
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return False
+    return "\0" not in text

@@ -32,6 +32,10 @@ def require_tolerance(name: str, tolerance: float) -> None:
         )
 
 
+class BranchFileError(OrbitError, ValueError):
+    """A file holds no branch, a damaged one, or one of another format."""
+
+
 class NotClosedError(OrbitError):
     """An orbit given as known does not close; `residual` is by how much, in state scales."""
 

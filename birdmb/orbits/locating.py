@@ -10,7 +10,6 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 from scipy.optimize import brentq
@@ -25,7 +24,7 @@ from birdmb.orbits.bifurcations import (
     sign_changes,
     sorted_excess,
 )
-from birdmb.orbits.branch import Bifurcation, BifurcationKind, BranchPoint
+from birdmb.orbits.branch_points import Bifurcation, BifurcationKind, BranchPoint
 
 LOCATION_TOLERANCE = 1e-7  # in arclength
 # Events nearer than this in arclength are one; so are multipliers this near to the circle at it.
@@ -188,8 +187,7 @@ def outside_after(
 
 
 def _at_sign_change(chord: Chord, kind: BifurcationKind, neutral: Neutral) -> _Event:
-    test = partial(TESTS[kind], neutral=neutral) if kind != "fold" else _turn
-    distance, width = chord.root(test, 0.0, chord.length)
+    distance, width = chord.root(lambda point: TESTS[kind](point, neutral), 0.0, chord.length)
     point = chord.at(distance)
     centre = -1.0 if kind == "period doubling" else 1.0
     order = _order(point, np.abs(point.multipliers - centre), chord, neutral)
@@ -223,10 +221,6 @@ def _at_modulus(
     ends = (float(sorted_excess(end, neutral)[0][place]) for end in (chord.before, chord.after))
     error = width + _spread(chord, float(sorted_excess(point, neutral)[1][place]), *ends)
     return _Event(distance, point, None, order, size, error)
-
-
-def _turn(point: BranchPoint) -> float:
-    return float(point.tangent[-1])
 
 
 def _nearest(point: BranchPoint, centre: float) -> float:

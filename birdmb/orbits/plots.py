@@ -13,6 +13,7 @@ from matplotlib.patches import Circle
 
 from birdmb._typing import ComplexArray, FloatArray
 from birdmb.orbits.ode import Trajectory
+from birdmb.text import in_figure
 
 if TYPE_CHECKING:
     from birdmb.orbits.boundary import StabilityBoundary
@@ -43,7 +44,8 @@ def plot_cycle(
     rows = left.subplots(n, 1, sharex=True, squeeze=False)[:, 0]
     for i, axes in enumerate(rows):
         axes.plot(path.times, path.states[:, i])
-        axes.set_ylabel(state_names[i] if units is None else f"{state_names[i]} ({units[i]})")
+        unit = "" if units is None else f" ({units[i]})"
+        axes.set_ylabel(in_figure(f"{state_names[i]}{unit}"))
     rows[-1].set_xlabel("time (s)")
     draw_multipliers(right.subplots(), multipliers, errors)
     return figure
@@ -73,7 +75,7 @@ def plot_response(
     for i, axes in enumerate(rows):
         axes.plot(times, orbit[:, i], color="0.6", label="orbit")
         axes.plot(times, states[:, i], color=STABLE_COLOUR, label="disturbed")
-        axes.set_ylabel(state_names[i])
+        axes.set_ylabel(in_figure(state_names[i]))
     rows[0].legend(loc="upper right")
     rows[-1].set_xlabel("time (s)")
     return figure
@@ -106,8 +108,8 @@ def plot_branch(branch: Branch, quantity: str) -> Figure:
         text = f"{bifurcation.kind} {bifurcation.parameter:.5g}"
         top.annotate(text, (bifurcation.parameter, value), (6, 6), textcoords="offset points")
         bottom.axvline(bifurcation.parameter, color="0.8", linewidth=0.8)
-    top.set_ylabel(quantity)
-    bottom.set(xlabel=branch.parameter_name, ylabel="|Λ|")
+    top.set_ylabel(in_figure(quantity))
+    bottom.set(xlabel=in_figure(branch.parameter_name), ylabel="|Λ|")
     return figure
 
 
@@ -124,5 +126,5 @@ def plot_boundary(boundary: StabilityBoundary) -> Figure:
             axes.plot(first, second, marker, color="k", label=kind)
     if found:
         axes.legend()
-    axes.set(xlabel=boundary.first_name, ylabel=boundary.second_name)
+    axes.set(xlabel=in_figure(boundary.first_name), ylabel=in_figure(boundary.second_name))
     return figure

@@ -10,7 +10,7 @@ import numpy as np
 from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError, StateError
 from birdmb.orbits.bifurcations import Neutral, counts_outside
-from birdmb.orbits.branch import Bifurcation, BranchPoint
+from birdmb.orbits.branch_points import Bifurcation, BranchPoint
 from birdmb.orbits.cycle import LimitCycle
 from birdmb.orbits.errors import (
     BIFURCATIONS_FOUND,

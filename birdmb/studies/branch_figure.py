@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from birdmb.orbits import Branch, BranchPoint
 from birdmb.orbits.plots import MARKERS, VERDICT_COLOURS
 from birdmb.studies.validity import LARGEST_ANGLE
+from birdmb.text import in_figure
 
 # Parameters that span more than this factor are drawn on a logarithmic axis.
 _WIDE = 10.0
@@ -50,9 +51,10 @@ def plot_bird_branch(branch: Branch) -> Figure:
     for verdict in dict.fromkeys(point.stability for point in branch.points):
         rows[0].plot([], [], "-", color=VERDICT_COLOURS[verdict], label=verdict)
     rows[0].legend(fontsize="small")
-    rows[0].set(ylabel="mean speed (m/s)", title=str(branch.settings.get("bird", "")))
+    rows[0].set(ylabel="mean speed (m/s)", title=in_figure(str(branch.settings.get("bird", ""))))
     rows[1].set(ylabel="|Λ|")
-    rows[2].set(ylabel="largest effective angle\nof attack (deg)", xlabel=branch.parameter_name)
+    rows[2].set_ylabel("largest effective angle\nof attack (deg)")
+    rows[2].set_xlabel(in_figure(branch.parameter_name))
     low, high = branch.parameters.min(), branch.parameters.max()
     if low > 0 and high > _WIDE * low:
         _make_logarithmic(rows[2], low, high)

@@ -12,6 +12,7 @@ from matplotlib.patches import Circle
 
 from birdmb.figures.style import LINE
 from birdmb.orbits.plots import STABLE_COLOUR, UNSTABLE_COLOUR
+from birdmb.text import in_figure
 
 _ROWS = {
     "mean_speed": "mean speed (m/s)",
@@ -94,7 +95,7 @@ def _marker(colour: str, face: str) -> dict[str, Any]:
 
 def _title(figure: Figure, study: xr.Dataset, what: str) -> None:
     outside = " (open: outside the model's validity)" if (study["warning"] != "").any() else ""
-    figure.suptitle(f"{study.attrs['bird']}: {what}{outside}", fontsize="medium")
+    figure.suptitle(f"{in_figure(study.attrs['bird'])}: {what}{outside}", fontsize="medium")
 
 
 def _parameter(study: xr.Dataset) -> str:
@@ -104,4 +105,4 @@ def _parameter(study: xr.Dataset) -> str:
 def _label(study: xr.Dataset) -> str:
     name = _parameter(study)
     units = study[name].attrs.get("units", "")
-    return f"{name.removesuffix('_deg')} (°)" if units == "deg" else name
+    return f"{in_figure(name.removesuffix('_deg'))} (°)" if units == "deg" else in_figure(name)

@@ -5,11 +5,14 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
 import tomli_w
 
+from birdmb.files import write_whole
+from birdmb.text import on_one_line
 from birdmb.topology.bird import Bird
 from birdmb.topology.parts import Part
 
@@ -21,9 +24,10 @@ _NUMBERS = re.compile(r"\[\n([-+\d.e,\s]+)\]")
 def bird_text(bird: Bird, about: Sequence[str] = ()) -> str:
     """A bird as TOML that `load_bird` reads as the same bird; what it left to defaults is left out.
 
-    `about` are lines of comment to put before it. Angles are in degrees where that is exact.
+    `about` are lines of comment to put before it, each on one line whatever it holds. Angles
+    are in degrees where that is exact.
     """
-    comments = "".join(f"# {line}".rstrip() + "\n" for line in about)
+    comments = "".join(f"# {on_one_line(line)}".rstrip() + "\n" for line in about)
     return f"{comments}\n{_NUMBERS.sub(_on_one_line, tomli_w.dumps(_table(bird)))}"
 
 
@@ -31,9 +35,13 @@ def _on_one_line(found: re.Match[str]) -> str:
     return f"[{', '.join(found[1].replace(',', ' ').split())}]"
 
 
-def write_bird(bird: Bird, path: Path, about: Sequence[str] = ()) -> None:
-    """Write `bird_text` into a file."""
-    path.write_text(bird_text(bird, about), encoding="utf-8")
+def write_bird(bird: Bird, path: str | PathLike[str], about: Sequence[str] = ()) -> Path:
+    """Write `bird_text` into a file; return its path.
+
+    Raises:
+        OutputError: the file cannot be written.
+    """
+    return write_whole(path, bird_text(bird, about).encode())
 
 
 def _table(part: Part) -> dict[str, Any]:

@@ -1,5 +1,6 @@
-"""Changes of stability that no sign of a test function shows, at parameters known in closed form."""
+"""Changes of stability that no sign of a test function shows, at exact parameters."""
 
+import itertools
 from typing import NamedTuple
 
 import numpy as np
@@ -7,7 +8,9 @@ import pytest
 import scipy.linalg
 
 from birdmb.errors import OrbitError
-from birdmb.orbits import OdeModel, Steps, continue_branch, stability_boundary
+from birdmb.orbits import BranchPoint, OdeModel, Steps, continue_branch, stability_boundary
+from birdmb.orbits.bifurcations import Neutral, counts_outside
+from birdmb.orbits.locating import Chord, locate, outside_after
 
 PERIOD = 2 * np.pi
 COARSE = Steps(first=0.05, longest=0.2)
@@ -33,13 +36,11 @@ class Linear:
 
 
 def exponential(block, t):
-    """Exponential of one block times t: a real number, a `Spiral`, or a matrix."""
+    """Exponential of one block times t: a real number, or a `Spiral`."""
     if isinstance(block, float):
         return np.exp(block * t)
-    if isinstance(block, Spiral):
-        c, s = np.cos(block.spin * t), np.sin(block.spin * t)
-        return np.exp(block.growth * t) * np.array([[c, -s], [s, c]])
-    return scipy.linalg.expm(block * t)
+    c, s = np.cos(block.spin * t), np.sin(block.spin * t)
+    return np.exp(block.growth * t) * np.array([[c, -s], [s, c]])
 
 
 class Spiral(NamedTuple):
@@ -150,14 +151,23 @@ def test_orbits_that_are_one_of_a_family_are_said():
         continue_branch(lambda p: Linear(0.0, p, -0.2), (-0.3, 0.2))
 
 
+class Reversible:
+    """A map whose multipliers are the zeros z of s^2 - s + 1/4 + p, s = z + 1/z.
+
+    Two pairs on the circle meet at p = 0 and leave it as a quadruple (Krein).
+    """
+
+    state_names, period, state_scale = tuple("abcd"), 1.0, np.ones(4)
+
+    def __init__(self, p):
+        self.matrix = scipy.linalg.companion([1.0, -1.0, 2.25 + p, -1.0, 1.0])
+
+    def flow(self, x0, _t0, _t1):
+        return self.matrix @ x0
+
+
 def test_conservative_pairs_that_meet_and_leave_the_circle():
-    """x'' = -K x, K with eigenvalues 0.5 +- sqrt(-p): both frequencies meet at p = 0 (Krein)."""
-
-    def family(p):
-        stiffness = np.array([[0.5, 1.0], [-p, 0.5]])
-        return Linear(np.block([[np.zeros((2, 2)), np.eye(2)], [-stiffness, np.zeros((2, 2))]]))
-
-    found = located(family, (-0.05, 0.06))
+    found = located(Reversible, (-0.05, 0.06), guess=np.zeros(4))
     assert [bifurcation.outside for bifurcation in found] == [(0, 2)]
     assert abs(found[0].parameter) <= found[0].parameter_error < 1e-3
 
@@ -171,3 +181,71 @@ def test_the_boundary_is_where_stability_changes():
     boundary = stability_boundary(family, (-0.3, 0.5), [0.0, 0.1, 0.2], steps=COARSE)
     found = boundary.to_xarray()["first_parameter"].values
     assert found == pytest.approx([0.0, 0.1, 0.2], abs=1e-6)
+
+
+def made_up(parameter, families, noise):
+    """A point of a branch without a flow: multipliers exp(slope (p - at)) in copies."""
+    values = []
+    for where, slope, at_, copies, angle in families:
+        for _ in range(copies):
+            modulus = np.exp(slope * (parameter - at_) + 1e-12 * noise.standard_normal())
+            turned = modulus * np.exp(1j * angle)
+            values += [turned, turned.conjugate()] if where == "pair" else [where * modulus + 0j]
+    multipliers = np.array(values)
+    multipliers = multipliers[np.lexsort((-multipliers.imag, -np.abs(multipliers)))]
+    return BranchPoint(
+        parameter=parameter,
+        period=1.0,
+        points=np.zeros((1, len(values))),
+        residual=0.0,
+        multipliers=multipliers,
+        multiplier_errors=np.full(len(values), 1e-10),
+        trivial_index=None,
+        stability="stable",
+        tangent=np.array([0.0, 1.0]),
+        next_step=0.1,
+    )
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_every_crossing_of_made_up_multipliers_is_located(seed):
+    """Real ones and pairs in one to three copies, all outwards: none cancels another."""
+    chance, noise = np.random.default_rng(seed), np.random.default_rng(seed + 1000)
+    families = [
+        (
+            (1, -1, "pair")[chance.integers(3)],
+            chance.uniform(0.5, 3),
+            chance.uniform(-0.5, 2.5),
+            chance.integers(1, 4),
+            chance.uniform(0.3, 2.8),
+        )
+        for _ in range(chance.integers(1, 5))
+    ]
+    families.append(("pair", 0.0, 0.0, chance.integers(0, 2), 1.0))  # conservative
+    points = [made_up(p, families, noise) for p in np.linspace(0, 2, chance.integers(2, 12))]
+    neutral = Neutral.of(points[0])
+    outside, found = counts_outside(points[0], neutral), []
+    for i, (before, after) in enumerate(itertools.pairwise(points)):
+        earlier, neutral = neutral, neutral.still(after)
+        chord = Chord(
+            before,
+            after,
+            after.parameter - before.parameter,
+            2.0,
+            lambda s, start=before.parameter: made_up(start + s, families, noise),
+        )
+        located = locate(chord, i, outside, neutral, earlier)
+        outside = outside_after(outside, located, after, neutral)
+        found += located
+    exact = sorted(
+        (at_, copies * (1 + (where == "pair")))
+        for where, slope, at_, copies, _ in families
+        if slope and 0 < at_ < 2
+    )
+    assert [bifurcation.parameter for bifurcation in found] == pytest.approx(
+        [at_ for at_, _ in exact], abs=1e-6
+    )
+    assert [bifurcation.crossing.sum() for bifurcation in found] == [n for _, n in exact]
+    for bifurcation, (at_, number) in zip(found, exact, strict=True):
+        assert abs(bifurcation.parameter - at_) <= bifurcation.parameter_error
+        assert bifurcation.outside[1] - bifurcation.outside[0] == number

@@ -16,6 +16,7 @@ from matplotlib.patches import Patch, Rectangle
 from birdmb.figures.style import LINE
 from birdmb.orbits.plots import STABLE_COLOUR, UNSTABLE_COLOUR
 from birdmb.studies.sweeps.errors import SweepError
+from birdmb.text import in_figure
 
 OVERVIEW = ("largest_modulus", "time_constant", "power", "climb_rate")
 _LABELS = {
@@ -43,7 +44,7 @@ _BEYOND: dict[str, Any] = {"ls": "", "marker": ".", "color": "k", "markersize": 
 
 def plot_study(study: xr.Dataset, quantity: str | None, at: Mapping[str, Any]) -> Figure:
     """Draw quantities of a study's dataset; see `Study.plot`."""
-    title = f"{study.attrs['bird']}, {study.attrs['model']}"
+    title = in_figure(f"{study.attrs['bird']}, {study.attrs['model']}")
     plane, fixed = _left(study, at)
     quantities = OVERVIEW if quantity is None else (quantity,)
     for name in quantities:
@@ -101,13 +102,13 @@ def _left(study: xr.Dataset, at: Mapping[str, Any]) -> tuple[xr.Dataset, list[st
     for name in left:
         if plane[name].dtype.kind in "if":
             plane = plane.sortby(name)
-    texts = [f"{_label(str(name))[0]} = {value}" for name, value in fixed.items()]
+    texts = [f"{_label(str(name))[0]} = {in_figure(str(value))}" for name, value in fixed.items()]
     return plane, [", ".join(texts)] if texts else []
 
 
 def _label(name: str) -> tuple[str, str]:
     """Name of a parameter without its unit, and with it."""
-    plain = name.removesuffix("_deg")
+    plain = in_figure(name.removesuffix("_deg"))
     unit = "°" if name.endswith("_deg") else _UNITS.get(name.rpartition(".")[2])
     return plain, f"{plain} ({unit})" if unit else plain
 
@@ -119,13 +120,14 @@ def _places(axes: Axes, along: Literal["x", "y"], coordinate: xr.DataArray) -> n
         axes.locator_params(axis=along, nbins=6)
         return np.asarray(coordinate.values, float)
     places = np.arange(coordinate.size, dtype=float)
-    getattr(axes, f"set_{along}ticks")(places, list(map(str, coordinate.values)))
+    labels = [in_figure(str(value)) for value in coordinate.values]
+    getattr(axes, f"set_{along}ticks")(places, labels)
     return places
 
 
 def _quantity_label(study: xr.Dataset, name: str) -> str:
     units = study[name].attrs.get("units", "s" if name == "seconds" else "1")
-    plain = name.replace("_", " ")
+    plain = in_figure(name.replace("_", " "))
     return _LABELS.get(name, plain if units == "1" else f"{plain} ({units})")
 
 

@@ -3,25 +3,30 @@
 from __future__ import annotations
 
 import json
+import os
 import sqlite3
 from collections.abc import Iterator, Mapping
 from contextlib import closing, contextmanager
-from dataclasses import dataclass
 from datetime import UTC, datetime
-from importlib.metadata import version
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
+from birdmb.provenance import software
+from birdmb.studies.sweeps.contents import (
+    APPLICATION,
+    COLUMNS,
+    FORMAT,
+    Contents,
+    contents,
+    digest,
+    digest_key,
+)
 from birdmb.studies.sweeps.errors import SweepError
 from birdmb.studies.sweeps.grid import Grid, Place
 from birdmb.studies.sweeps.point import Outcome
 from birdmb.studies.sweeps.settings import difference
 
-_APPLICATION = 0x62697264  # "bird": tells a study from any other SQLite file
-_FORMAT = 2
-# Packages whose version may change the last bits of a result.
-_SOFTWARE = ("birdmb", "exudyn", "numba", "numpy", "scipy")
 _TABLES = (
     "create table study (key text primary key, value text not null)",
     "create table runs (run integer primary key, started text not null, software text not null)",
@@ -30,16 +35,8 @@ _TABLES = (
         reason text not null, start text not null, result text, seconds real not null,
         finished text not null, run integer not null references runs
     )""",
+    "create table digests (row text primary key, digest text not null)",
 )
-
-
-@dataclass(frozen=True)
-class Contents:
-    """What a store holds: what it was made of, its grid, and the points finished so far."""
-
-    identity: dict[str, Any]
-    grid: Grid
-    points: dict[Place, Outcome]
 
 
 def place_text(place: Place) -> str:
@@ -50,13 +47,13 @@ def place_text(place: Place) -> str:
 class Store:
     """A store open for writing, by one process at a time."""
 
-    def __init__(self, path: Path, connection: sqlite3.Connection, contents: Contents) -> None:
+    def __init__(self, path: Path, connection: sqlite3.Connection, held: Contents) -> None:
         self._path, self._connection = path, connection
-        self.contents = contents
+        self.contents = held
         with self._transaction():
-            software = {name: version(name) for name in _SOFTWARE}
             self._run = connection.execute(
-                "insert into runs (started, software) values (?, ?)", (_now(), json.dumps(software))
+                "insert into runs (started, software) values (?, ?)",
+                (_now(), json.dumps(software())),
             ).lastrowid
 
     @classmethod
@@ -71,17 +68,17 @@ class Store:
                 grid, or cannot be written.
         """
         path = Path(path)
-        with _told(path), closing(sqlite3.connect(path, isolation_level=None)) as connection:
+        with _told(path), closing(_connection(path, "rwc")) as connection:
             with connection:
                 connection.execute("begin immediate")
-                if not _tables(connection):
+                if _is_new(connection):
                     _create(connection, identity, grid)
-                contents = _contents(path, connection)
-                _refuse_another(path, contents, identity, grid)
+                held = contents(path, connection)
+                _refuse_another(path, held, identity, grid)
                 _put(connection, "grid", grid.parameters)
             connection.execute("pragma journal_mode = wal")  # others can read meanwhile
             connection.execute("pragma synchronous = full")
-            yield cls(path, connection, contents)
+            yield cls(path, connection, held)
 
     def add(self, grid: Grid, place: Place, outcome: Outcome) -> None:
         """Keep a finished point; when this returns, it survives whatever happens.
@@ -100,13 +97,15 @@ class Store:
             _now(),
             self._run,
         )
-        try:
-            with self._transaction():
-                self._connection.execute(f"insert into points values ({','.join('?' * 9)})", row)
-        except sqlite3.IntegrityError as error:
-            raise SweepError(
-                f"{self._path}: another sweep is filling this store; let it finish, or end it."
-            ) from error
+        with self._transaction():
+            if self._connection.execute("select 1 from points where place = ?", row[:1]).fetchone():
+                raise SweepError(
+                    f"{self._path}: another sweep is filling this store; let it finish, or end it."
+                )
+            self._connection.execute(
+                f"insert into points ({COLUMNS}) values ({','.join('?' * 9)})", row
+            )
+            _seal(self._connection, digest_key("point", row[0]), row)
 
     @contextmanager
     def _transaction(self) -> Iterator[None]:
@@ -122,20 +121,33 @@ def read(path: str | PathLike[str]) -> Contents:
         SweepError: there is no such file, or it is no study.
     """
     path = Path(path)
-    if not path.is_file():
-        raise SweepError(f"{path}: there is no such study.")
-    # Not read-only, which would leave the files of the write-ahead log behind.
-    uri = f"{path.absolute().as_uri()}?mode=rw"
-    with _told(path), closing(sqlite3.connect(uri, uri=True)) as connection:
-        return _contents(path, connection)
+    with _told(path):
+        if path.is_dir():
+            raise SweepError(f"{path} is a directory, no study.")
+        if not path.exists():
+            raise SweepError(f"{path}: there is no such study.")
+        with closing(_connection(path, _reading_mode(path))) as connection:
+            return contents(path, connection)
+
+
+def _connection(path: Path, mode: str) -> sqlite3.Connection:
+    """A connection to the file of that name: to SQLite, `:memory:` would mean something else."""
+    uri = f"{path.absolute().as_uri()}?mode={mode}"
+    return sqlite3.connect(uri, uri=True, isolation_level=None)
+
+
+def _reading_mode(path: Path) -> str:
+    if os.access(path, os.W_OK) and os.access(path.absolute().parent, os.W_OK):
+        # Not read-only, which would leave the files of the write-ahead log behind.
+        return "rw"
+    log = path.with_name(f"{path.name}-wal")
+    return "ro" if log.exists() else "ro&immutable=1"  # a log needs a file beside it to be read
 
 
 @contextmanager
 def _told(path: Path) -> Iterator[None]:
     try:
         yield
-    except sqlite3.IntegrityError:
-        raise
     except sqlite3.Error as error:
         raise SweepError(f"{path} cannot be used as the store of a study ({error}).") from error
 
@@ -144,13 +156,18 @@ def _now() -> str:
     return datetime.now(UTC).isoformat(timespec="milliseconds")
 
 
-def _tables(connection: sqlite3.Connection) -> set[str]:
-    return {name for (name,) in connection.execute("select name from sqlite_master")}
+def _is_new(connection: sqlite3.Connection) -> bool:
+    """Whether there is nothing in the file, not even the mark of another program."""
+    marks = (
+        connection.execute(f"pragma {name}").fetchone()[0]
+        for name in ("application_id", "user_version")
+    )
+    return not any(marks) and not connection.execute("select 1 from sqlite_master").fetchone()
 
 
 def _create(connection: sqlite3.Connection, identity: Mapping[str, Any], grid: Grid) -> None:
-    connection.execute(f"pragma application_id = {_APPLICATION}")
-    connection.execute(f"pragma user_version = {_FORMAT}")
+    connection.execute(f"pragma application_id = {APPLICATION}")
+    connection.execute(f"pragma user_version = {FORMAT}")
     for table in _TABLES:
         connection.execute(table)
     _put(connection, "identity", identity)
@@ -158,38 +175,23 @@ def _create(connection: sqlite3.Connection, identity: Mapping[str, Any], grid: G
 
 
 def _put(connection: sqlite3.Connection, key: str, value: Mapping[str, Any]) -> None:
-    connection.execute("insert or replace into study values (?, ?)", (key, json.dumps(value)))
+    row = (key, json.dumps(value))
+    connection.execute("insert or replace into study values (?, ?)", row)
+    _seal(connection, digest_key("study", key), row)
 
 
-def _contents(path: Path, connection: sqlite3.Connection) -> Contents:
-    application, form = (
-        connection.execute(f"pragma {name}").fetchone()[0]
-        for name in ("application_id", "user_version")
-    )
-    if application != _APPLICATION:
-        raise SweepError(f"{path} is no study; give the store another name.")
-    if form != _FORMAT:
-        raise SweepError(f"{path} is of format {form}; this birdmb reads format {_FORMAT}.")
-    study = {key: json.loads(value) for key, value in connection.execute("select * from study")}
-    grid = Grid({name: tuple(values) for name, values in study["grid"].items()})
-    rows = connection.execute("select place, result, reason, start, seconds from points")
-    points = {
-        tuple(json.loads(place)): Outcome(result and json.loads(result), reason, start, seconds)
-        for place, result, reason, start, seconds in rows
-    }
-    return Contents(study["identity"], grid, points)
+def _seal(connection: sqlite3.Connection, key: str, row: tuple[Any, ...]) -> None:
+    connection.execute("insert or replace into digests values (?, ?)", (key, digest(row)))
 
 
-def _refuse_another(
-    path: Path, contents: Contents, identity: Mapping[str, Any], grid: Grid
-) -> None:
+def _refuse_another(path: Path, held: Contents, identity: Mapping[str, Any], grid: Grid) -> None:
     # What has been through JSON once is compared: tuples are lists there.
-    apart = difference(contents.identity, json.loads(json.dumps(identity)))
+    apart = difference(held.identity, json.loads(json.dumps(identity)))
     if apart is not None:
         raise SweepError(f"{path} holds another study: {apart}; give this one another store.")
-    if grid.extends(contents.grid):
+    if grid.extends(held.grid):
         return
-    stored, asked = contents.grid.parameters, grid.parameters
+    stored, asked = held.grid.parameters, grid.parameters
     if list(stored) != list(asked):
         raise SweepError(
             f"{path} holds another study: it varies {', '.join(stored)}, in this order, not "

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from importlib.metadata import version
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from birdmb.studies.sweeps import figures
+from birdmb.studies.sweeps.contents import Contents
+from birdmb.studies.sweeps.errors import SweepError
 from birdmb.studies.sweeps.grid import Grid, Place, Value
 from birdmb.studies.sweeps.point import Outcome
 from birdmb.studies.sweeps.store import read
@@ -41,6 +44,7 @@ _NUMBERS = {
     "steps_per_beat": ("1", "integration steps per wingbeat"),
 }
 _BY_MULTIPLIER = ("multiplier_real", "multiplier_imag", "multiplier_error")
+_OTHERS = ("x0", "monodromy", "stability", "integrator", "trimmed", "warning")
 
 
 @dataclass(frozen=True)
@@ -66,10 +70,12 @@ class Study:
         """Read a store, also one that a sweep is filling at the same time.
 
         Raises:
-            SweepError: there is no such file, or it is no study.
+            SweepError: there is no such file, it is no study, damaged, or of a version of birdmb
+                that kept something else.
         """
         held = read(store)
-        bird = Bird.model_validate(held.identity["bird"])
+        bird = _bird(store, held)
+        _require_results(store, held)
         points = {place: held.points[place] for place in sorted(held.points)}
         return cls(Path(store), bird, held.identity, held.grid.parameters, points)
 
@@ -173,6 +179,28 @@ class Study:
             SweepError: no such quantity or value, or more than two parameters left.
         """
         return figures.plot_study(self.to_xarray(timings=True), quantity, at or {})
+
+
+def _bird(store: str | PathLike[str], held: Contents) -> Bird:
+    try:
+        return Bird.model_validate(held.identity["bird"])
+    except ValueError as error:  # pydantic's
+        raise SweepError(
+            f"{Path(store)} holds a bird of birdmb {held.identity['birdmb']} that this one, "
+            f"{version('birdmb')}, cannot read; read the study with that version."
+        ) from error
+
+
+def _require_results(store: str | PathLike[str], held: Contents) -> None:
+    needed = {*_NUMBERS, *_BY_MULTIPLIER, *_OTHERS}
+    for outcome in held.points.values():
+        lacking = needed - (outcome.result or dict.fromkeys(needed)).keys()
+        if lacking:
+            raise SweepError(
+                f"{Path(store)} holds points of birdmb {held.identity['birdmb']} without "
+                f"{', '.join(sorted(lacking))}, which this one, {version('birdmb')}, keeps; read "
+                f"the study with that version."
+            )
 
 
 def _derived(data: Mapping[str, xr.DataArray]) -> dict[str, xr.DataArray]:

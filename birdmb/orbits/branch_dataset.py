@@ -1,0 +1,113 @@
+"""The orbits and bifurcations of a branch as labelled real arrays, and back."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import cast
+
+import numpy as np
+import xarray as xr
+
+from birdmb.orbits.branch_points import Bifurcation, BifurcationKind, BranchPoint
+from birdmb.orbits.multipliers import Stability
+
+
+def arrays_of(
+    points: Sequence[BranchPoint], bifurcations: Sequence[Bifurcation]
+) -> dict[str, xr.DataArray]:
+    """Arrays by name; those of bifurcations begin with `bifurcation_`.
+
+    Dimensions: point, state, segment, multiplier, unknown, bifurcation, side (before and after).
+    """
+
+    def array(values: Sequence[object], *dims: str, kind: type | str | None = None) -> xr.DataArray:
+        return xr.DataArray(np.array(values, dtype=kind), dims=("bifurcation", *dims))
+
+    data = _stack(points, "point")
+    data["bifurcation_kind"] = array([found.kind for found in bifurcations], kind="U16")
+    data["bifurcation_after"] = array([found.after for found in bifurcations], kind=int)
+    data["bifurcation_parameter_error"] = array(
+        [found.parameter_error for found in bifurcations], kind=float
+    )
+    if bifurcations:
+        located = _stack([found.point for found in bifurcations], "bifurcation")
+        data |= {f"bifurcation_{name}": values for name, values in located.items()}
+        data["bifurcation_crossing"] = array([b.crossing for b in bifurcations], "multiplier")
+        data["bifurcation_outside"] = array([b.outside for b in bifurcations], "side")
+    return data
+
+
+def points_of(data: xr.Dataset) -> tuple[BranchPoint, ...]:
+    """The points that `arrays_of` made the dataset of."""
+    return tuple(_unstack(data, "", "point"))
+
+
+def bifurcations_of(data: xr.Dataset) -> tuple[Bifurcation, ...]:
+    """The bifurcations that `arrays_of` made the dataset of."""
+    if not data.sizes["bifurcation"]:
+        return ()
+    located = _unstack(data, "bifurcation_", "bifurcation")
+    return tuple(_bifurcation(point, data.isel(bifurcation=i)) for i, point in enumerate(located))
+
+
+def _bifurcation(point: BranchPoint, row: xr.Dataset) -> Bifurcation:
+    before, after = (int(number) for number in row["bifurcation_outside"].values)
+    return Bifurcation(
+        kind=cast("BifurcationKind", str(row["bifurcation_kind"].values)),
+        point=point,
+        parameter_error=float(row["bifurcation_parameter_error"]),
+        after=int(row["bifurcation_after"]),
+        crossing=row["bifurcation_crossing"].values.astype(bool),
+        outside=(before, after),
+    )
+
+
+def _stack(points: Sequence[BranchPoint], dim: str) -> dict[str, xr.DataArray]:
+    def array(values: list[object], *dims: str) -> xr.DataArray:
+        return xr.DataArray(np.array(values), dims=(dim, *dims))
+
+    data = {
+        "parameter": array([p.parameter for p in points]),
+        "period": array([p.period for p in points]),
+        "states": array([p.points for p in points], "segment", "state"),
+        "residual": array([p.residual for p in points]),
+        "multiplier_real": array([p.multipliers.real for p in points], "multiplier"),
+        "multiplier_imag": array([p.multipliers.imag for p in points], "multiplier"),
+        "multiplier_error": array([p.multiplier_errors for p in points], "multiplier"),
+        # NetCDF has no missing integers.
+        "trivial_index": array(
+            [np.nan if p.trivial_index is None else p.trivial_index for p in points]
+        ),
+        "stability": array([p.stability for p in points]),
+        "tangent": array([p.tangent for p in points], "unknown"),
+        "next_step": array([p.next_step for p in points]),
+    }
+    for name in points[0].observables:
+        data[f"observable_{name}"] = array([p.observables[name] for p in points])
+    return data
+
+
+def _unstack(data: xr.Dataset, prefix: str, dim: str) -> list[BranchPoint]:
+    start = f"{prefix}observable_"
+    observables = [str(key) for key in data.data_vars if str(key).startswith(start)]
+    points = []
+    for i in range(data.sizes[dim]):
+        row = data.isel({dim: i})
+        real, imag = row[f"{prefix}multiplier_real"], row[f"{prefix}multiplier_imag"]
+        trivial = float(row[f"{prefix}trivial_index"])
+        points.append(
+            BranchPoint(
+                parameter=float(row[f"{prefix}parameter"]),
+                period=float(row[f"{prefix}period"]),
+                points=row[f"{prefix}states"].values,
+                residual=float(row[f"{prefix}residual"]),
+                multipliers=real.values + 1j * imag.values,
+                multiplier_errors=row[f"{prefix}multiplier_error"].values,
+                trivial_index=None if np.isnan(trivial) else int(trivial),
+                stability=cast("Stability", str(row[f"{prefix}stability"].values)),
+                tangent=row[f"{prefix}tangent"].values,
+                next_step=float(row[f"{prefix}next_step"]),
+                observables={key.removeprefix(start): float(row[key]) for key in observables},
+            )
+        )
+    return points

@@ -1,0 +1,86 @@
+"""The orbits of a branch and the bifurcations between them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+
+from birdmb._typing import BoolArray, ComplexArray, FloatArray
+from birdmb.orbits.multipliers import Stability
+
+BifurcationKind = Literal["fold", "period doubling", "Neimark-Sacker", "branch point", "multiple"]
+
+
+@dataclass(frozen=True)
+class BranchPoint:
+    """One orbit of a branch: `floquet(family(parameter), points, period, ...)` has all of it.
+
+    Attributes:
+        parameter: value of the parameter.
+        period: period in s.
+        points: states (M, n) at the starts of the shooting segments.
+        residual: closure error in the units of the states.
+        multipliers: (n,), largest modulus first.
+        multiplier_errors: bound (n,) of the error of each.
+        trivial_index: position of the trivial multiplier, `None` for a forced system.
+        stability: verdict of the multipliers.
+        tangent: unit tangent of the branch in scaled unknowns, in the direction of travel.
+        next_step: length of the step that was to follow, from which a continuation resumes.
+        observables: what the caller asked to be recorded of the orbit, by name.
+    """
+
+    parameter: float
+    period: float
+    points: FloatArray
+    residual: float
+    multipliers: ComplexArray
+    multiplier_errors: FloatArray
+    trivial_index: int | None
+    stability: Stability
+    tangent: FloatArray
+    next_step: float
+    observables: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Bifurcation:
+    """A located crossing of the unit circle by one or more multipliers.
+
+    Attributes:
+        kind: "fold" (the branch turns, multiplier 1), "period doubling" (multiplier -1),
+            "Neimark-Sacker" (complex pair on the unit circle), "branch point" (multiplier 1, the
+            branch does not turn) or "multiple": more multipliers cross at once than these kinds
+            have, as in several copies of one system, in symmetric systems, and where a pair crosses
+            at 1 or -1 (the strong resonances 1:1 and 1:2). `multipliers` says which.
+        point: the orbit there.
+        parameter_error: bound of the error of the parameter that comes from the location and from
+            the error bounds of the multipliers.
+        after: index of the branch point before it.
+        crossing: mask (n,) of the multipliers that cross.
+        outside: numbers of multipliers outside the unit circle before and after, in the direction
+            of travel; those that stay on the circle all along the branch are not counted.
+    """
+
+    kind: BifurcationKind
+    point: BranchPoint
+    parameter_error: float
+    after: int
+    crossing: BoolArray
+    outside: tuple[int, int]
+
+    @property
+    def parameter(self) -> float:
+        """Value of the parameter."""
+        return self.point.parameter
+
+    @property
+    def multipliers(self) -> ComplexArray:
+        """Multipliers (k,) that cross the unit circle."""
+        return np.asarray(self.point.multipliers[self.crossing])
+
+    @property
+    def changes_stability(self) -> bool:
+        """Whether orbits are stable, or not known to be unstable, on one of its two sides alone."""
+        return (self.outside[0] == 0) != (self.outside[1] == 0)
