@@ -44,10 +44,12 @@ def test_growth(multiplier, error, says):
 def test_verdicts():
     rest = (0.5, 1e-9)
     assert verdict_sentence(spectrum((1.5, 1e-9), rest)) == (
-        "unstable at 17.96 m/s, climbing -0.06 m/s: the fastest-growing disturbance doubles in 0.43 s (1.7 beats)"
+        "unstable at 17.96 m/s, climbing -0.06 m/s: the fastest-growing disturbance doubles in "
+        "0.43 s (1.7 beats)"
     )
     assert verdict_sentence(spectrum((0.9, 1e-9), rest)) == (
-        "stable at 17.96 m/s, climbing -0.06 m/s: the slowest-decaying disturbance halves in 1.6 s (6.6 beats)"
+        "stable at 17.96 m/s, climbing -0.06 m/s: the slowest-decaying disturbance halves in 1.6 s "
+        "(6.6 beats)"
     )
     assert verdict_sentence(spectrum((1.0, 1e-9), rest)).startswith("undecided at 17.96 m/s")
 

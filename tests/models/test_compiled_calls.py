@@ -60,7 +60,7 @@ def test_a_callback_never_raises(handled, inside):
 
     def forces():
         calls.append("forces")
-        if inside:
+        if inside and len(calls) == 1:
             signal.raise_signal(SIGNAL)
         return np.zeros(2)
 
@@ -92,20 +92,16 @@ def test_a_handler_that_returns_changes_nothing():
 
 
 def test_what_numba_makes_of_an_interruption_is_undone():
-    try:
-        try:
-            raise Stop
-        except Stop as stop:
-            raise SystemError("returned a result with an exception set") from stop
-    except SystemError as error:
-        assert isinstance(behind(error), Stop)
+    interrupted = SystemError("returned a result with an exception set")
+    interrupted.__cause__ = Stop()
+    assert behind(interrupted) is interrupted.__cause__
     bare = SystemError("of its own")
     assert behind(bare) is bare
 
 
 def test_a_gust_that_raises_comes_out_of_the_search_as_it_is(bird, handled):
     """From Exudyn's user functions; the model is as good as new after it."""
-    steady = birdmb.MultibodyModel(bird, steps_per_beat=40)
+    steady = birdmb.MultibodyModel(bird, steps_per_beat=60, integrator="explicit")
     x = steady.driven_state()
     calls = 0
 
@@ -118,7 +114,7 @@ def test_a_gust_that_raises_comes_out_of_the_search_as_it_is(bird, handled):
             raise OSError("no data of the gust")
         return 0.0, 0.0
 
-    gusty = birdmb.MultibodyModel(bird, steps_per_beat=40, gust=gust)
+    gusty = birdmb.MultibodyModel(bird, steps_per_beat=60, integrator="explicit", gust=gust)
     with pytest.raises(Stop):
         birdmb.find_limit_cycle(gusty, x)
     with pytest.raises(OSError, match="no data of the gust"):
@@ -132,12 +128,12 @@ import random, signal, sys, threading, time
 import birdmb
 
 bird = birdmb.load_bird(sys.argv[1]).with_values({"wing.discretisation": 4})
-model = birdmb.MultibodyModel(bird, steps_per_beat=40)
+model = birdmb.MultibodyModel(bird, steps_per_beat=60, integrator="explicit")
 x = model.driven_state()
 expected = model.flow(x, 0.0, 0.25)
 signal.signal(signal.SIGINT, signal.default_int_handler)
 caught, pauses, main = 0, random.Random(1), threading.main_thread().ident
-for _ in range(30):
+for _ in range(15):
     go = threading.Event()
     def interrupt():
         go.wait()
@@ -170,14 +166,14 @@ def test_interruptions_at_random_moments_are_keyboard_interrupts():
         text=True,
         check=False,
     )
-    assert (run.returncode, run.stdout, run.stderr) == (0, "30\n", "")
+    assert (run.returncode, run.stdout, run.stderr) == (0, "15\n", "")
 
 
 def test_one_model_in_several_threads_gives_what_it_gives_in_one(bird):
-    alone = birdmb.MultibodyModel(bird, steps_per_beat=40)
+    alone = birdmb.MultibodyModel(bird, steps_per_beat=60, integrator="explicit")
     starts = [alone.driven_state() + 0.01 * k * alone.state_scale for k in range(6)]
     expected = [alone.flow(x, 0.0, 0.25) for x in starts]
-    shared = birdmb.MultibodyModel(bird, steps_per_beat=40)
+    shared = birdmb.MultibodyModel(bird, steps_per_beat=60, integrator="explicit")
     together = threading.Barrier(3)
 
     def flow(k):

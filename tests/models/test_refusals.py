@@ -87,17 +87,15 @@ def scaled(bird, factor):
         "body.mass": bird.body.mass * factor**3,
         "body.inertia_yy": bird.body.inertia_yy * factor**5,
         "gait.frequency": bird.gait.frequency / factor**0.5,
-        "wing.root": {k: getattr(bird.wing.root, k) * factor for k in "xyz"},
+        **{f"wing.root.{k}": getattr(bird.wing.root, k) * factor for k in "xyz"},
         "wing.half_thickness": bird.wing.half_thickness * factor,
         **{f"feathers.{f.name}.length": f.length * factor for f in bird.feathers},
     }
     for bone in ("humerus", "forearm", "hand"):
         segment = getattr(bird.segments, bone)
-        values[f"segments.{bone}"] = {
-            "length": segment.length * factor,
-            "mass": segment.mass * factor**3,
-            "inertia": (np.array(segment.inertia) * factor**5).tolist(),
-        }
+        values[f"segments.{bone}.length"] = segment.length * factor
+        values[f"segments.{bone}.mass"] = segment.mass * factor**3
+        values[f"segments.{bone}.inertia"] = (np.array(segment.inertia) * factor**5).tolist()
     return bird.with_values(values)
 
 
