@@ -65,7 +65,8 @@ def _everywhere(
 @app.command(
     epilog=(
         "Exit status: 0 found; 1 no limit cycle found (the flight diverged, or the search did not "
-        "converge); 2 wrong topology, value or option; 130 interrupted.\n\n"
+        "converge), or what was found is no flight; 2 wrong topology, value or option; 130 "
+        "interrupted.\n\n"
         'With --json a failure is an object with the key "error", and as far as the search got: '
         '"x" (name to value), "residual", "iterations".\n\n'
         "Example: birdmb cycle topologies/ibis.toml --set shoulder.flap.stiffness=20 --out results"

@@ -11,14 +11,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
+import typer
 from rich.console import Console
 
 from birdmb.cli.files import prepare, write_results
 from birdmb.cli.interrupt import tidied
-from birdmb.cli.outcome import InputError, SearchFailed
+from birdmb.cli.outcome import NO_CYCLE, InputError, SearchFailed
 from birdmb.cli.progress import Progress
 from birdmb.cli.report import print_report
-from birdmb.cli.results import finite, result_object
+from birdmb.cli.results import finite, result_object, taken_as_prescribed
 from birdmb.files import remove_drafts
 from birdmb.orbits import ConvergenceError, find_limit_cycle
 from birdmb.studies import assess_validity
@@ -71,6 +72,8 @@ def run(bird: Bird, search: Search, *, out: Path | None, as_json: bool) -> None:
         print_report(Console(), cycle, validity)
         for path in written:
             progress.line(f"wrote {path}")
+    if cycle.why_no_flight is not None:
+        raise typer.Exit(NO_CYCLE)
 
 
 def _found(bird: Bird, search: Search, progress: Progress) -> FlightCycle:
@@ -79,6 +82,11 @@ def _found(bird: Bird, search: Search, progress: Progress) -> FlightCycle:
         f"{bird.name}, {search.model} model: {len(model.state_names)} states, "
         f"wingbeat of {bird.period:.4g} s"
     )
+    if held := taken_as_prescribed(model):
+        progress.line(
+            f"The {search.model} model takes {', '.join(held)} as prescribed: springs and dampers "
+            "are not used."
+        )
     progress.doing("looking for a first guess")
     try:
         cycle = find_limit_cycle(

@@ -30,6 +30,8 @@ def print_report(console: Console, cycle: FlightCycle, validity: Validity) -> No
     console.print()
     verdict = Text(verdict_sentence(cycle))
     verdict.highlight_words([cycle.stability], _STYLES[cycle.stability])
+    if cycle.failed_checks or cycle.why_no_flight is not None:
+        verdict.stylize("bold red", 0, verdict.plain.index(cycle.stability))
     console.print(verdict)
     for warning in validity.warnings:
         console.print(f"outside the model's validity: {warning}", style="yellow", highlight=False)
@@ -66,9 +68,7 @@ def _multipliers(cycle: FlightCycle) -> Table:
     table = table_of(
         "Floquet multipliers", "Re", "Im", "modulus", "error", "a disturbance", numbers=(0, 1, 2, 3)
     )
-    for i, (value, error) in enumerate(
-        zip(cycle.multipliers, cycle.multiplier_errors, strict=True)
-    ):
+    for i, (value, error) in enumerate(zip(cycle.multipliers, cycle.verdict_errors, strict=True)):
         table.add_row(
             _number(value.real),
             _number(value.imag) if value.imag else "",
@@ -118,6 +118,12 @@ def _flight(cycle: FlightCycle, validity: Validity) -> Table:
             f"{cycle.integration_error:.1e}",
             "",
             "of a beat, against half steps",
+        ),
+        (
+            "  of multipliers",
+            f"{cycle.multiplier_integration_errors.max():.1e}",
+            "",
+            "counted in their errors above",
         ),
     )
     for row in rows:

@@ -38,9 +38,13 @@ def result_object(cycle: FlightCycle, validity: Validity, model_name: str) -> di
         "integrator": model.integration_method,
         "multipliers": [[float(m.real), float(m.imag)] for m in cycle.multipliers],
         "multiplier_errors": _numbers(cycle.multiplier_errors),
+        "multiplier_integration_errors": _numbers(cycle.multiplier_integration_errors),
         "doubling_times": _numbers(cycle.doubling_times),
         "stability": cycle.stability,
         "verdict": verdict_sentence(cycle),
+        "failed_checks": list(cycle.failed_checks),
+        "why_no_flight": cycle.why_no_flight,
+        "taken_as_prescribed": taken_as_prescribed(model),
         "mean_speed": cycle.mean_speed,
         "mean_climb_rate": cycle.mean_climb_rate,
         "path_angle": cycle.path_angle,
@@ -63,14 +67,21 @@ def result_object(cycle: FlightCycle, validity: Validity, model_name: str) -> di
     }
 
 
+def taken_as_prescribed(model: WingModel) -> list[str]:
+    """Compliant joints and hinges that the model holds to their drivers."""
+    free = [joint.name for joint in model.bird.compliant_joints]
+    free += [feather.hinge_name for feather in model.bird.hinged_feathers]
+    return [name for name in free if name not in model.state_names]
+
+
 def _numbers(values: Iterable[float]) -> list[float | None]:
     return [finite(value) for value in values]
 
 
 def growth(cycle: FlightCycle, i: int) -> str:
     """What a disturbance in mode i does: "doubles in 0.471 s (1.9 beats)"."""
-    modulus, error = float(np.abs(cycle.multipliers[i])), float(cycle.multiplier_errors[i])
-    if abs(modulus - 1) <= error:
+    modulus, error = float(np.abs(cycle.multipliers[i])), float(cycle.verdict_errors[i])
+    if not abs(modulus - 1) > error:
         return "undecided within its error"
     if modulus < 1 and error > 0.01 * modulus:  # all that is known is how slow it is at most
         slowest = cycle.period * math.log(2) / -math.log(modulus + error)
@@ -84,12 +95,26 @@ def _time(seconds: float, period: float) -> str:
 
 
 def verdict_sentence(cycle: FlightCycle) -> str:
-    """Whether the bird can fly hands-off, and how fast its slowest or growing disturbance is."""
+    """Whether the bird can fly hands-off at its speed and climb, and how fast disturbances grow.
+
+    What speaks against the numbers, or against calling them a flight, comes first.
+    """
+    doubts = []
+    if cycle.failed_checks:
+        doubts.append(f"not to be trusted: {' and '.join(cycle.failed_checks)}")
+    if cycle.why_no_flight is not None:
+        doubts.append(f"not a flight: {cycle.why_no_flight}")
+    return "; ".join([*doubts, _verdict(cycle)])
+
+
+def _verdict(cycle: FlightCycle) -> str:
+    rate = cycle.mean_climb_rate
+    flight = f"{cycle.stability} at {cycle.mean_speed:.2f} m/s, climbing {rate:+.2f} m/s:"
     if cycle.stability == "unstable":
-        return f"unstable: the fastest-growing disturbance {growth(cycle, 0)}"
+        return f"{flight} the fastest-growing disturbance {growth(cycle, 0)}"
     if cycle.stability == "stable":
-        return f"stable: the slowest-decaying disturbance {growth(cycle, 0)}"
+        return f"{flight} the slowest-decaying disturbance {growth(cycle, 0)}"
     return (
-        "undecided: the modulus of a multiplier is 1 within its error, so that the disturbance may "
+        f"{flight} the modulus of a multiplier is 1 within its error, so that the disturbance may "
         "grow or decay"
     )

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import cast
 
 import typer
 from rich.console import Console
 
 from birdmb.cli.progress import Progress
-from birdmb.cli.results import verdict_sentence
-from birdmb.models import MultibodyModel, RigidModel
+from birdmb.cli.results import taken_as_prescribed, verdict_sentence
+from birdmb.models import MultibodyModel, RigidModel, WingModel
 from birdmb.studies.trim import trim_flight
 from birdmb.studies.validity import assess_validity
 from birdmb.topology import Bird
@@ -39,6 +40,12 @@ def run(
         )
         cycle = found.cycle
         warnings = assess_validity(cycle).warnings
+        held = taken_as_prescribed(cast("WingModel", cycle.model))
+    if held:
+        progress.line(
+            f"The {model} model takes {', '.join(held)} as prescribed: springs and dampers are not "
+            "used."
+        )
     for name, value in found.values.items():
         typer.echo(f"{name} = {value:.6g}")
     typer.echo(

@@ -33,8 +33,9 @@ def overflow_told(bird: Bird, what: str) -> Iterator[None]:
     try:
         yield
     except (ArithmeticError, np.linalg.LinAlgError) as error:
+        reason = str(error) or type(error).__name__
         raise StateError(
-            f"{bird.name}: {what} cannot be computed ({error}): the motion runs away, or a value "
+            f"{bird.name}: {what} cannot be computed ({reason}): the flight diverged, or a value "
             f"of the bird is too large or too small to reckon with; `birdmb check` shows them."
         ) from error
     except SystemError as error:

@@ -3,7 +3,6 @@
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import cast
 
 import numpy as np
 import xarray as xr
@@ -14,8 +13,11 @@ from birdmb._typing import FloatArray
 from birdmb.aerodynamics.prescribed import driven
 from birdmb.models.energy import DISSIPATORS, Work, dissipation, work_by_sign
 from birdmb.models.loads import Loads
-from birdmb.models.wing_model import WingModel
-from birdmb.orbits import LimitCycle
+from birdmb.models.stepped_cycle import SteppedCycle
+
+# Of flights that are well resolved both are below 1e-4.
+_LARGEST_IMBALANCE = 0.01
+_LARGEST_INTEGRATION_ERROR = 0.01
 
 
 @dataclass(frozen=True)
@@ -95,15 +97,11 @@ def _mean(values: FloatArray) -> FloatArray:
 
 
 @dataclass(frozen=True)
-class FlightCycle(LimitCycle):
+class FlightCycle(SteppedCycle):
     """Limit cycle of a bird: besides the orbit, the means over a beat that its flight is judged by.
 
     Powers are means over a beat, in W, of both wings together.
     """
-
-    @property
-    def _bird_model(self) -> WingModel:
-        return cast(WingModel, self.model)
 
     @cached_property
     def beat(self) -> Beat:
@@ -240,18 +238,6 @@ class FlightCycle(LimitCycle):
         by_joints = -2.0 * (torques * self.beat.joint_rates).sum(axis=1)
         return float(_mean(self.beat.wing_power - by_joints))
 
-    @cached_property
-    def integration_error(self) -> float:
-        """Error of the flow over a beat, in units of the state scale: against twice the steps.
-
-        Of the same method: explicit steps against explicit ones, implicit against implicit.
-        """
-        model = self._bird_model
-        finer = model.with_steps(2 * model.steps_per_beat)
-        end = self.start_time + self.period
-        coarse, fine = (m.flow(self.x0, self.start_time, end) for m in (model, finer))
-        return float(np.abs((coarse - fine) / self.state_scale).max())
-
     @property
     def energy_imbalance(self) -> float:
         """What a beat leaves over of the energy, relative to the work done in it; 0 if exact.
@@ -264,6 +250,42 @@ class FlightCycle(LimitCycle):
         exchanged = np.abs(joints) + np.abs(self.beat.air_power) + np.abs(gravity)
         left_over = _mean(joints + self.beat.air_power + gravity)
         return float(np.abs(left_over) / _mean(exchanged))
+
+    @cached_property
+    def failed_checks(self) -> tuple[str, ...]:
+        """What the program's own checks say against these numbers, a sentence each."""
+        checks = (
+            ("energy imbalance of a beat", self.energy_imbalance, _LARGEST_IMBALANCE),
+            ("integration error of a beat", self.integration_error, _LARGEST_INTEGRATION_ERROR),
+        )
+        # NaN fails too.
+        return tuple(
+            f"the {name} is {value:.1e}, more than {largest:g}"
+            for name, value, largest in checks
+            if not value <= largest
+        )
+
+    @cached_property
+    def why_no_flight(self) -> str | None:
+        """Why this motion, though it repeats itself, is no flight; `None` if it is one."""
+        forwards, pitch = _mean(self._states_of_beat[1])[[0, 3]]
+        if np.cos(pitch) <= 0.0:
+            angle = f"pitch {np.degrees(pitch):.0f} deg"
+            return f"the body stands on its tail or lies on its back ({angle})"
+        if forwards <= 0.0:
+            return f"the body moves backwards ({forwards:.1f} m/s along its axis)"
+        if self.mean_velocity[0] <= 0.0:
+            return f"it moves backwards ({self.mean_velocity[0]:.1f} m/s)"
+        return None
+
+    @property
+    def verdict_errors(self) -> FloatArray:
+        """Errors (n,) of the multipliers that the verdict counts: also of the integration.
+
+        Infinite where `failed_checks` leave no faith in any of them.
+        """
+        errors = super().verdict_errors
+        return np.full(errors.shape, np.inf) if self.failed_checks else errors
 
     def _by_joint(self, values: FloatArray) -> dict[str, float]:
         names = self._bird_model.bird.angle_names
@@ -295,6 +317,11 @@ class FlightCycle(LimitCycle):
             {
                 "force": (("beat_time", "axis"), beat.force, _attrs("N", "air on the bird")),
                 "moment": (("beat_time", "axis"), beat.moment, _attrs("N m", "air, about G")),
+                "multiplier_integration_error": (
+                    "multiplier",
+                    self.multiplier_integration_errors,
+                    _attrs("1", "by the integration's steps"),
+                ),
                 "wing_power": ("beat_time", beat.wing_power, _attrs("W", "P_act")),
                 "tail_angle": ("beat_time", beat.tail_angle, _attrs("rad", "of attack")),
                 "dissipation": (
@@ -320,6 +347,8 @@ class FlightCycle(LimitCycle):
                 "power": self.power,
                 "potential_power": self.potential_power,
                 "cost_of_transport": self.cost_of_transport,
+                "failed_checks": "; ".join(self.failed_checks),
+                "why_no_flight": self.why_no_flight or "",
             },
         )
         return xr.merge([super().to_xarray(), flight], combine_attrs="no_conflicts")

@@ -11,24 +11,25 @@ from birdmb.aerodynamics.prescribed import driven
 from birdmb.errors import StateError
 from birdmb.models.compiled_calls import COMPILED, calls_compiled_code
 from birdmb.models.determinacy import refuse_undetermined
-from birdmb.models.exudyn_tree import BODY_COORDINATES, ExudynBird, typical_inertias
+from birdmb.models.exudyn_tree import BODY_COORDINATES, ExudynBird, bird_links, typical_inertias
 from birdmb.models.failures import lifting_line_lost, overflow_told
 from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.gusts import Gust
 from birdmb.models.implicit import integrate_implicitly
+from birdmb.models.inputs import flattened
 from birdmb.models.instants import Instant, Instants
 from birdmb.models.integration import Integration, Integrator, integration_for
 from birdmb.models.multibody_kernel import air_forces, body_velocity
 from birdmb.models.rigid import RigidModel
 from birdmb.models.springs import Springs
+from birdmb.models.stepped_cycle import SteppedCycle
 from birdmb.models.wing_model import (
     BODY_SCALE,
     BODY_STATES,
     BODY_UNITS,
     WingModel,
 )
-from birdmb.orbits import LimitCycle
 from birdmb.topology import Bird
 from birdmb.wing.shape import WingShape, wing_shape
 
@@ -56,7 +57,7 @@ class MultibodyModel(WingModel):
         gust: velocity of the air, as for `WingModel`.
     """
 
-    limit_cycle_type: type[LimitCycle] = FlightCycle
+    limit_cycle_type: type[SteppedCycle] = FlightCycle
     # How many of the states are the body's: all four, unless it is held.
     _body_states = len(BODY_STATES)
 
@@ -114,6 +115,17 @@ class MultibodyModel(WingModel):
     def integration_method(self) -> Literal["explicit", "implicit"]:
         """Kind of the integration steps: implicit where joints or hinges are stiff."""
         return self.integration.method
+
+    @property
+    def inputs(self) -> tuple[object, ...]:
+        """What the flow in still air depends on; equal for models that fly alike."""
+        links = [(link.mass, link.centre, link.inertia) for link in bird_links(self.bird)]
+        return super().inputs + flattened(self._compliant, self._springs.constants, links)
+
+    @property
+    def has_kinks(self) -> bool:
+        """Whether a spring is stiffer to one side."""
+        return self._springs.have_two_sides
 
     @property
     def mass(self) -> float:
@@ -348,7 +360,7 @@ class TetheredModel(MultibodyModel):
         ValueError: the body turns.
     """
 
-    limit_cycle_type = LimitCycle
+    limit_cycle_type = SteppedCycle
     _body_states = 0
 
     def __init__(

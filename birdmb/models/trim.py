@@ -17,6 +17,9 @@ def mean_trim(bird: Bird, wing: PrescribedWing, frame: Airframe) -> FloatArray:
 
     `wing` holds phases at equal distances over a whole beat. Where no state balances them, the one
     that comes closest is returned: the search for the limit cycle has the last word.
+
+    Raises:
+        FloatingPointError: the loads overflow.
     """
     phases = wing.inverse.shape[0]
     mass, inertia, g = bird.body.mass, bird.body.inertia_yy, bird.gravity
@@ -48,16 +51,16 @@ def mean_trim(bird: Bird, wing: PrescribedWing, frame: Airframe) -> FloatArray:
 
     trials = []
     for u in (12.0, 20.0, 7.0, 35.0):
-        start = np.array([u, -0.05 * u, 0.0])
-        if not (np.isfinite(accelerations(start)).all() and np.isfinite(jacobian(start)).all()):
-            raise FloatingPointError("the loads are not finite")
-        found = least_squares(
-            accelerations,
-            start,
-            jac=jacobian,
-            bounds=([_SLOWEST, -_FASTEST, -1.5], [_FASTEST, _FASTEST, 1.5]),
-            x_scale=[10.0, 2.0, 0.2],
-        )
+        try:
+            found = least_squares(
+                accelerations,
+                [u, -0.05 * u, 0.0],
+                jac=jacobian,
+                bounds=([_SLOWEST, -_FASTEST, -1.5], [_FASTEST, _FASTEST, 1.5]),
+                x_scale=[10.0, 2.0, 0.2],
+            )
+        except ValueError as error:  # scipy's, of what it is given
+            raise FloatingPointError("the mean loads overflow") from error
         trials.append(found)
         if found.cost < _BALANCED:
             break
