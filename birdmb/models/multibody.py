@@ -24,6 +24,7 @@ from birdmb.models.wing_model import (
     BODY_UNITS,
     WingModel,
     lifting_line_lost,
+    wing_misplaced,
 )
 from birdmb.orbits import LimitCycle
 from birdmb.topology import Bird
@@ -318,7 +319,7 @@ class MultibodyModel(WingModel):
         rates = v[BODY_COORDINATES : BODY_COORDINATES + joints]
         instant = self.instant(t)
         forward, down = self.air_velocity(t)
-        body, torques = air_forces(
+        body, torques, clearance = air_forces(
             self.wing,
             instant.shape or self._shape(t, angles, rates),
             self.turning,
@@ -330,6 +331,8 @@ class MultibodyModel(WingModel):
             v[1] - down,
             v[2],
         )
+        if not clearance >= 0.0:
+            raise wing_misplaced(self.bird, t, angles, clearance)
         torques += self._spring_torques(instant, angles, rates)
         return np.concatenate([body, torques, torques])
 

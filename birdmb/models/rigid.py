@@ -25,6 +25,7 @@ from birdmb.models.wing_model import (
     STEPS_PER_BEAT,
     WingModel,
     lifting_line_lost,
+    wing_misplaced,
 )
 from birdmb.topology import Bird
 
@@ -118,8 +119,7 @@ class RigidModel(WingModel):
     @cached_property
     def _first_guess(self) -> FloatArray:
         times = np.linspace(0.0, self.bird.period, 17)[:-1]
-        wing = prescribed_wing(self.wing, self.airframe.tail, times, *self.discretisation)
-        return mean_trim(self.bird, wing, self.airframe)
+        return mean_trim(self.bird, self._wing_at(times), self.airframe)
 
     def _integrate(
         self, x0: npt.ArrayLike, t0: float, t1: float
@@ -159,8 +159,18 @@ class RigidModel(WingModel):
 
     def _tabulate(self, t0: float, duration: float, steps: int) -> PrescribedWing:
         times = t0 + duration * np.arange(2 * steps + 1) / max(2 * steps, 1)
+        return self._wing_at(times)
+
+    def _wing_at(self, times: FloatArray) -> PrescribedWing:
         wing = prescribed_wing(self.wing, self.airframe.tail, times, *self.discretisation)
         if not wing.converged.all():
             t = float(times[np.argmin(wing.converged)])
             raise lifting_line_lost(self.bird, t, driven(self.wing, t)[0])
+        misplaced = ~(wing.clearance >= 0.0)
+        if misplaced.any():
+            worst = int(np.argmin(np.where(misplaced, wing.clearance, np.inf)))
+            t = float(times[worst])
+            raise wing_misplaced(
+                self.bird, t, driven(self.wing, t)[0], float(wing.clearance[worst])
+            )
         return wing

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from birdmb._typing import FloatArray
 from birdmb.aerodynamics.airframe import airframe
 from birdmb.aerodynamics.circulation import element_loads
-from birdmb.aerodynamics.elements import place_elements
+from birdmb.aerodynamics.elements import clearance, place_elements
 from birdmb.aerodynamics.joints import hinge_torques, joint_torques
 from birdmb.aerodynamics.prescribed import driven
 from birdmb.errors import StateError
@@ -113,7 +113,8 @@ class WingModel(ABC):
         """Aerodynamic loads at time t (s) in state x (n,).
 
         Raises:
-            StateError: the lifting line cannot be found, or the state is not finite.
+            StateError: the lifting line cannot be found or crosses the plane of symmetry, or the
+                state is not finite.
         """
         state = np.asarray(x, dtype=float)
         if not np.isfinite(state).all():
@@ -123,6 +124,9 @@ class WingModel(ABC):
         if not shape.converged:
             raise lifting_line_lost(self.bird, t, angles)
         elements = place_elements(shape, self.wing.root)
+        distance = clearance(elements)
+        if not distance >= 0.0:
+            raise wing_misplaced(self.bird, t, angles, distance)
         u, w, q, theta = self.body_state(state)
         forward, down = self.air_velocity(t)
         c, s = np.cos(theta), np.sin(theta)
@@ -159,12 +163,36 @@ class WingModel(ABC):
 
 def lifting_line_lost(bird: Bird, t: float, angles: FloatArray) -> StateError:
     """Say at which joint angles the lifting line could not be found."""
-    listed = ", ".join(
-        f"{name} {np.degrees(angle):.1f} deg"
-        for name, angle in zip(bird.angle_names, angles, strict=True)
-    )
     return StateError(
         f"{bird.name}: no line orthogonal to its chords fits the wing at t = {t:.4f} s "
-        f"({listed}); the wing is folded too far, or wing.discretisation has too many elements for "
-        f"its rounding."
+        f"({_listed(bird, angles)}); the wing is folded too far, feathers point forwards or are out "
+        f"of all proportion to its bones, or wing.discretisation has too many elements for its "
+        f"rounding."
+    )
+
+
+def wing_misplaced(bird: Bird, t: float, angles: FloatArray, clearance: float) -> StateError:
+    """Say at which joint angles the wing lies where it has no loads, for `clearance` (m) < 0 or NaN.
+
+    See `birdmb.aerodynamics.elements.clearance`.
+    """
+    at = f"at t = {t:.4f} s ({_listed(bird, angles)})"
+    if np.isnan(clearance):
+        return StateError(
+            f"{bird.name}: a part of the lifting line runs along the stream {at}, where the wing "
+            f"has no span; sweep it less."
+        )
+    root = bird.wing.root.y
+    return StateError(
+        f"{bird.name}: the wings swing through one another {at}: the lifting line is "
+        f"{-1e3 * clearance:.3g} mm across the plane of symmetry, where it has no loads. With the "
+        f"same joint angles wing.root.y must be {root - clearance:.4g} m or more, not {root:.4g} m; "
+        f"or let the joints flap or sweep the wing less far inwards."
+    )
+
+
+def _listed(bird: Bird, angles: FloatArray) -> str:
+    return ", ".join(
+        f"{name} {np.degrees(angle):.4g} deg"
+        for name, angle in zip(bird.angle_names, angles, strict=True)
     )
