@@ -18,7 +18,6 @@ from numba import njit
 from birdmb._typing import FloatArray
 from birdmb.wing.shape import WingShape
 
-
 # Of the line's length: what round-off may do to a root that lies in the plane of symmetry, and to
 # the width across the stream of an element that runs along it.
 _ROUND_OFF = 1e-9

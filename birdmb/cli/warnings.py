@@ -17,7 +17,6 @@ from birdmb.wing.outline import wing_outline
 
 _PHASES = 24
 _ROUND_OFF = 1e-9  # m
-_AT_ANY_SPEED = np.array([10.0, 0.0, 0.0, 0.0])  # whether there are loads does not depend on it
 _NEAR_RESONANCE = 0.2
 
 
@@ -77,8 +76,7 @@ def _on_wing(bird: Bird) -> Iterator[str]:
     model = RigidModel(bird)
     phases = np.arange(_PHASES) / _PHASES
     try:
-        for phase in phases:
-            model.loads(phase * bird.period, _AT_ANY_SPEED)
+        model.wing_at(phases * bird.period)
     except StateError as error:
         yield f"no flight with the wings as driven. {error}"
         return
@@ -96,11 +94,12 @@ def _on_overlap(bird: Bird, model: RigidModel, phases: FloatArray) -> Iterator[s
     across = np.array(places)
     k, i = np.unravel_index(np.argmin(across), across.shape)
     if across[k, i] < -_ROUND_OFF:
+        affected = np.sum(across.min(axis=1) < -_ROUND_OFF)
         yield (
             f"{names[i]} reaches {-1e3 * across[k, i]:.3g} mm across the plane of symmetry at "
-            f"t = {phases[k]:.3g} T, where it meets the other wing ({np.sum(across.min(axis=1) < 0)} "
-            f"of {_PHASES} phases). The lifting line does not, so that there are loads; they count "
-            f"both wings' area there. A larger wing.root.y keeps them apart."
+            f"t = {phases[k]:.3g} T, into the other wing ({affected} of {_PHASES} phases). The "
+            f"lifting line does not, so that there are loads; they count the area of both wings "
+            f"there. A larger wing.root.y keeps them apart."
         )
 
 

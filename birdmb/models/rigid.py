@@ -119,7 +119,7 @@ class RigidModel(WingModel):
     @cached_property
     def _first_guess(self) -> FloatArray:
         times = np.linspace(0.0, self.bird.period, 17)[:-1]
-        return mean_trim(self.bird, self._wing_at(times), self.airframe)
+        return mean_trim(self.bird, self.wing_at(times), self.airframe)
 
     def _integrate(
         self, x0: npt.ArrayLike, t0: float, t1: float
@@ -159,9 +159,10 @@ class RigidModel(WingModel):
 
     def _tabulate(self, t0: float, duration: float, steps: int) -> PrescribedWing:
         times = t0 + duration * np.arange(2 * steps + 1) / max(2 * steps, 1)
-        return self._wing_at(times)
+        return self.wing_at(times)
 
-    def _wing_at(self, times: FloatArray) -> PrescribedWing:
+    def wing_at(self, times: FloatArray) -> PrescribedWing:
+        """The wing on its drivers at `times` (P,) s; raises `StateError` where it has no loads."""
         wing = prescribed_wing(self.wing, self.airframe.tail, times, *self.discretisation)
         if not wing.converged.all():
             t = float(times[np.argmin(wing.converged)])

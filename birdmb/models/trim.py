@@ -70,8 +70,8 @@ def mean_trim(bird: Bird, wing: PrescribedWing, frame: Airframe) -> FloatArray:
     if not trials:
         raise StateError(
             f"{bird.name}: the loads are out of all proportion at every speed from 7 to 35 m/s; "
-            f"look at the lengths of the wing, at air.density, gravity and the coefficients of drag, "
-            f"and at the mass and the inertia of the body."
+            f"look at the wing's lengths, air.density, gravity, the coefficients of drag, and the "
+            f"mass and inertia of the body."
         )
     u, w, theta = min(trials, key=lambda found: float(found.cost)).x
     return np.array([u, w, 0.0, theta])

@@ -224,10 +224,10 @@ def assess_validity(
         )
     tail_angle = np.abs(cycle.beat.tail_angle[:-1])
     if (tail_angle > largest_tail_angle).any():
-        excesses.append(TailExcess(**_worst_of_beat(cycle, tail_angle, largest_tail_angle)))
+        excesses.append(TailExcess(*_worst_of_beat(cycle, tail_angle, largest_tail_angle)))
     overlap = np.array([outline.area_across for outline in _outlines(cycle)[:-1]])
     if (overlap > largest_overlap).any():
-        excesses.append(Overlap(**_worst_of_beat(cycle, overlap, largest_overlap)))
+        excesses.append(Overlap(*_worst_of_beat(cycle, overlap, largest_overlap)))
     return Validity(
         data=data,
         reduced_frequency=float(k),
@@ -238,16 +238,13 @@ def assess_validity(
     )
 
 
-def _worst_of_beat(cycle: FlightCycle, values: FloatArray, limit: float) -> dict[str, float]:
-    """Largest of `values` (K,), one an instant of the beat: how large, when and how long."""
+def _worst_of_beat(
+    cycle: FlightCycle, values: FloatArray, limit: float
+) -> tuple[float, float, float, float, float]:
+    """Of `values` (K,), one an instant: the largest, `limit`, time, phase and share beyond it."""
     time = float(cycle.beat.times[np.argmax(values)])
-    return {
-        "value": float(values.max()),
-        "limit": limit,
-        "time": time,
-        "phase": float(np.mod(time / cycle.period, 1.0)),
-        "share": float(np.mean(values > limit)),
-    }
+    phase = float(np.mod(time / cycle.period, 1.0))
+    return float(values.max()), limit, time, phase, float(np.mean(values > limit))
 
 
 def _along_span_and_beat(cycle: FlightCycle, frequency: float) -> xr.Dataset:
