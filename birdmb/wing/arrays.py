@@ -69,9 +69,6 @@ def _has_square_tip(bird: Bird) -> bool:
     45 degrees both views of the tip give loads that settle on more elements.
     """
     last = bird.feathers[-1]
-    lengths = [getattr(bird.segments, name).length for name in BONES]
-    bone = BONES.index(last.bone)
-    root = sum(lengths[:bone]) + last.position * lengths[bone]
-    outwards = root + last.length * np.sin(last.rest_angle) - sum(lengths)
+    outwards = last.length * np.sin(last.rest_angle)
     backwards = 2.0 * bird.wing.half_thickness + last.length * np.cos(last.rest_angle)
     return bool(outwards < backwards)

@@ -242,6 +242,21 @@ def moved_line(
 
 
 @njit(cache=True)
+def line_to_follow(line: SolvedLine, pairs: PairedEdges) -> Array:
+    """Points (n, 3) m whose differences are the direction of the line of `pairs`.
+
+    They are its own but for the shoulder's where the chord there is given against the equation
+    (`LineEnds.shoulder`): beside it the line is displaced, and its direction is that of what
+    follows.
+    """
+    points = 0.75 * pairs.leading + 0.25 * pairs.trailing
+    weight = line_ends(line.leading, line.trailing, line.station[-1] - line.station[-2]).shoulder
+    first = points[1] - points[0]
+    points[0] -= weight.real * (points[2] - points[1] - first)
+    return points
+
+
+@njit(cache=True)
 def orthogonal_line(
     leading_edge: ComplexArray, trailing_edge: ComplexArray, stations: int, rounding: float
 ) -> PairedEdges:

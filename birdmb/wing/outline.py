@@ -45,22 +45,29 @@ class WingOutline:
 
         The element at the root reaches over the body to the centre line.
         """
-        inner, outer = self.chords[:-1].copy(), self.chords[1:]
-        inner[0, :, 1] = 0.0
-        return np.stack([inner[:, 0], outer[:, 0], outer[:, 1], inner[:, 1]], axis=1)
+        chords = self.chords.copy()
+        chords[0, :, 1] = 0.0
+        return _between(chords)
 
     @property
     def area_across(self) -> float:
         """Part of the wing's area that lies across the plane of symmetry, in the other wing's half.
 
-        Along the chords exact, between them by the mean of neighbouring ones.
+        Without the gap over the body. Along the chords exact, between them by the mean of
+        neighbouring ones.
         """
         front, back = self.chords[:, 0, 1], self.chords[:, 1, 1]
         lower, upper = np.minimum(front, back), np.maximum(front, back)
         extent = np.where(upper > lower, upper - lower, 1.0)
         part = np.where(lower < 0.0, np.where(upper <= 0.0, 1.0, -lower / extent), 0.0)
-        areas = _areas(self.panels)
+        areas = _areas(_between(self.chords))
         return float(np.sum(areas * 0.5 * (part[:-1] + part[1:])) / np.sum(areas))
+
+
+def _between(chords: FloatArray) -> FloatArray:
+    """Panels (N, 4, 3) m between neighbouring chords (N + 1, 2, 3)."""
+    inner, outer = chords[:-1], chords[1:]
+    return np.stack([inner[:, 0], outer[:, 0], outer[:, 1], inner[:, 1]], axis=1)
 
 
 def _areas(panels: FloatArray) -> FloatArray:

@@ -97,8 +97,7 @@ def wing_shape(
         if published:
             pairs, leading, guide, per_hinge = one_step_wing(wing, moving, 2 * elements)
         else:
-            pairs, leading, per_hinge = orthogonal_wing(wing, moving, 2 * elements, rounding)
-            guide = 0.75 * pairs.leading + 0.25 * pairs.trailing
+            pairs, leading, guide, per_hinge = orthogonal_wing(wing, moving, 2 * elements, rounding)
         shape = _assemble(pairs, guide, leading, per_hinge, rounding, published)
     except ZeroDivisionError:  # a leg or a chord without length
         return _no_shape(wing, elements)
