@@ -79,10 +79,10 @@ def test_both_models_refuse_a_line_across_the_plane(ibis, ibis_massless, values,
     multibody = birdmb.MultibodyModel(ibis_massless.with_values(values))
     for attempt in (
         lambda: rigid.flow(STATE, 0.0, rigid.period),
-        lambda: rigid.initial_guess(),
+        rigid.initial_guess,
         lambda: rigid.loads(0.125, STATE),
         lambda: multibody.loads(0.125, STATE),
-        lambda: multibody.initial_guess(),
+        multibody.initial_guess,
     ):
         with pytest.raises(birdmb.StateError, match="across the plane of symmetry"):
             attempt()

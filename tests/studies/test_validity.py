@@ -1,6 +1,7 @@
 """The report on validity: warnings where an artificial case puts them, and only there."""
 
 import copy
+import itertools
 from dataclasses import replace
 
 import numpy as np
@@ -161,7 +162,7 @@ def test_overlap_of_the_wings_is_told_beyond_its_limit(rigid_cycle):
     chords = wing_outline(model.wing, angles, numbers).chords
     a, b = np.meshgrid(*2 * [(np.arange(100) + 0.5) / 100], indexing="ij")
     across = whole = 0.0
-    for inner, outer in zip(chords[:-1], chords[1:], strict=True):
+    for inner, outer in itertools.pairwise(chords):
         along = [p[None, None] + a[..., None] * (q - p) for p, q in zip(inner, outer, strict=True)]
         y = (along[0] + b[..., None] * (along[1] - along[0]))[..., 1]
         area = np.linalg.norm(np.cross(outer[1] - inner[0], outer[0] - inner[1])) / 2
