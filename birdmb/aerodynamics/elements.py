@@ -103,8 +103,11 @@ def wake_influence(position: FloatArray, node: FloatArray) -> tuple[FloatArray, 
             rz = position[i, 2] - node[k, 2]
             ry = position[i, 1] - node[k, 1]
             ry_mirror = position[i, 1] + node[k, 1]
-            near = 0.25 / (np.pi * (ry * ry + rz * rz))
-            far = 0.25 / (np.pi * (ry_mirror * ry_mirror + rz * rz))
+            square = ry * ry + rz * rz
+            square_mirror = ry_mirror * ry_mirror + rz * rz
+            # On a filament itself, where the line runs along the stream: see `clearance`.
+            near = 0.25 / (np.pi * square) if square > 0.0 else np.nan
+            far = 0.25 / (np.pi * square_mirror) if square_mirror > 0.0 else np.nan
             # Per unit strength backwards, that of the left wing's image being opposite.
             vy = rz * (near - far)
             vz = ry_mirror * far - ry * near

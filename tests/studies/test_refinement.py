@@ -23,13 +23,11 @@ def test_change_is_that_of_the_loads(ibis):
     assert found.largest == max(found.force, found.circulation)
 
 
-def test_a_square_tip_settles(ibis):
-    changes = [
-        load_change(ibis.with_values(SQUARE | {"wing.discretisation.elements": n})).largest
-        for n in (16, 64)
-    ]
-    assert changes[0] < 0.02
-    assert changes[1] < 0.5 * changes[0]
+@pytest.mark.parametrize("elements", [16, 32, 64])
+def test_a_square_tip_settles(ibis, elements):
+    """All joints moving; what is left stems from the corners of the edges."""
+    bird = ibis.with_values(SQUARE | {"wing.discretisation.elements": elements})
+    assert load_change(bird).largest < 0.02
 
 
 def test_without_air_nothing_changes(ibis):
