@@ -70,11 +70,15 @@ def element_loads(
 ) -> ElementLoads:
     """Circulation and force of every element for body velocity u, w (m/s), pitch rate q (rad/s).
 
-    `profile` is the drag coefficient of the sections.
+    `profile` is the drag coefficient of the sections. The loads are NaN where they overflow.
     """
     wind, speed, alpha = section_flow(elements, u, w, q)
     bound = np.pi * elements.chord * speed * alpha
-    circulation: Array = np.linalg.solve(circulation_system(elements), bound)
+    circulation: Array = np.full(speed.size, np.nan)
+    system = circulation_system(elements)
+    # The solver refuses what is not finite; a flow that diverges is told by whoever follows it.
+    if np.isfinite(np.sum(system)) and np.isfinite(np.sum(bound)):
+        circulation = np.linalg.solve(system, bound)
     drag = np.zeros_like(wind)
     if profile > 0.0:
         for e in range(speed.size):

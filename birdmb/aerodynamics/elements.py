@@ -18,6 +18,10 @@ from birdmb._kernels import kernel
 from birdmb._typing import FloatArray
 from birdmb.wing.shape import WingShape
 
+# Of the line's length: what round-off may do to a root that lies in the plane of symmetry, and to
+# the width across the stream of an element that runs along it.
+_ROUND_OFF = 1e-9
+
 
 class Elements(NamedTuple):
     """N elements of the right wing. Velocities are relative to the body."""
@@ -65,6 +69,25 @@ def place_elements(shape: WingShape, root: FloatArray) -> Elements:
 
 
 @kernel
+def clearance(elements: Elements) -> float:
+    """Least distance (m) of the right wing's line from the plane of symmetry, negative across it.
+
+    Across the plane the wake of one wing leaves inside the other, and no lifting line of both has
+    a meaning. Zero, a root in the plane, is sound: its element spans both sides alike. NaN where an
+    element has no width across the stream, so that its wake leaves in one line.
+    """
+    least = np.min(elements.position[:, 1])
+    least = min(least, np.min(elements.node[1:, 1]))
+    small = _ROUND_OFF * np.sum(elements.width)
+    for e in range(elements.chord.size):
+        dy = elements.node[e + 1, 1] - elements.node[e, 1]
+        dz = elements.node[e + 1, 2] - elements.node[e, 2]
+        if not dy * dy + dz * dz > (_ROUND_OFF * elements.width[e]) ** 2:
+            return np.nan
+    return 0.0 if abs(least) < small else least
+
+
+@kernel
 def wake_influence(position: FloatArray, node: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Velocities along y and z, each (N, N) 1/m, at the controls per circulation of each element.
 
@@ -80,8 +103,11 @@ def wake_influence(position: FloatArray, node: FloatArray) -> tuple[FloatArray, 
             rz = position[i, 2] - node[k, 2]
             ry = position[i, 1] - node[k, 1]
             ry_mirror = position[i, 1] + node[k, 1]
-            near = 0.25 / (np.pi * (ry * ry + rz * rz))
-            far = 0.25 / (np.pi * (ry_mirror * ry_mirror + rz * rz))
+            square = ry * ry + rz * rz
+            square_mirror = ry_mirror * ry_mirror + rz * rz
+            # On a filament itself, where the line runs along the stream: see `clearance`.
+            near = 0.25 / (np.pi * square) if square > 0.0 else np.nan
+            far = 0.25 / (np.pi * square_mirror) if square_mirror > 0.0 else np.nan
             # Per unit strength backwards, that of the left wing's image being opposite.
             vy = rz * (near - far)
             vz = ry_mirror * far - ry * near

@@ -13,7 +13,12 @@ from birdmb._kernels import kernel
 from birdmb._typing import BoolArray, FloatArray
 from birdmb.aerodynamics.airframe import Airframe, airframe_loads
 from birdmb.aerodynamics.circulation import section_flow
-from birdmb.aerodynamics.elements import Elements, circulation_system, place_elements
+from birdmb.aerodynamics.elements import (
+    Elements,
+    circulation_system,
+    clearance,
+    place_elements,
+)
 from birdmb.aerodynamics.tail import TailSurface, tail_influence
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.shape import wing_shape
@@ -26,7 +31,8 @@ class PrescribedWing(NamedTuple):
     inverse: FloatArray  # (P, N, N) of the circulation's linear system
     at_tail: FloatArray  # (P, 2, N) 1/m, velocity along x and z at the tail by the circulations
     beyond: FloatArray  # (P, N, 2), as in `WingShape`
-    converged: BoolArray  # (P,) the lifting line was found
+    converged: BoolArray  # (P,) as in `WingShape`
+    clearance: FloatArray  # (P,) m, see `elements.clearance`; NaN also where not converged
 
 
 @kernel
@@ -49,16 +55,20 @@ def prescribed_wing(
     rounding: float,
     published: bool,
 ) -> PrescribedWing:
-    """Tabulate the wing at `times` (P,) s."""
+    """Tabulate the wing at `times` (P,) s; inverses are NaN where the wing is across the plane."""
     shapes = [wing_shape(wing, *driven(wing, t)[:2], elements, rounding, published) for t in times]
     placed = [place_elements(shape, wing.root) for shape in shapes]
-    system = np.stack([circulation_system(elements) for elements in placed])
+    clearances = np.array([clearance(at) for at in placed])
+    inverse = np.full((len(placed), elements, elements), np.nan)
+    for k in np.flatnonzero(clearances >= 0.0):
+        inverse[k] = np.linalg.inv(circulation_system(placed[k]))
     return PrescribedWing(
         Elements(*(np.stack(arrays) for arrays in zip(*placed, strict=True))),
-        np.asarray(np.linalg.inv(system), dtype=float),
-        np.stack([tail_influence(tail, elements.node) for elements in placed]),
+        inverse,
+        np.stack([tail_influence(tail, at.node) for at in placed]),
         np.stack([shape.beyond for shape in shapes]),
         np.array([shape.converged for shape in shapes]),
+        clearances,
     )
 
 
@@ -70,6 +80,7 @@ def every_second(wing: PrescribedWing) -> PrescribedWing:
         wing.at_tail[::2].copy(),
         wing.beyond[::2].copy(),
         wing.converged[::2].copy(),
+        wing.clearance[::2].copy(),
     )
 
 

@@ -11,7 +11,9 @@ from birdmb.aerodynamics.tail import tail_surface
 from birdmb.cli.inertia import Spring, hinge_springs, spring_of
 from birdmb.cli.progress import Progress
 from birdmb.cli.report import table_of
-from birdmb.cli.warnings import warnings_on
+from birdmb.cli.warnings import warnings_on, warnings_on_loads
+from birdmb.errors import StateError
+from birdmb.studies.refinement import LoadChange, load_change
 from birdmb.topology import BONES, Bird
 from birdmb.wing.outline import span_and_area
 
@@ -30,6 +32,10 @@ def run(bird: Bird) -> None:
         if bird.hinged_feathers:
             tables.append(_springs("Hinges of feathers", "hinge", hinge_springs(bird)))
         warnings = warnings_on(bird)
+        change = _load_change(bird, progress)
+        if change is not None:
+            tables.insert(1, _loads(bird, change))
+            warnings += warnings_on_loads(change)
     console = Console()
     for table in tables:
         console.print()
@@ -39,6 +45,27 @@ def run(bird: Bird) -> None:
         console.print(f"Warning: {warning}", style="yellow", highlight=False, markup=False)
     if not warnings:
         console.print("No warnings.", style="green")
+
+
+def _load_change(bird: Bird, progress: Progress) -> LoadChange | None:
+    """None where the wing has no loads, of which `warnings_on` tells."""
+    progress.doing("comparing the loads on two numbers of elements")
+    try:
+        return load_change(bird)
+    except StateError:
+        return None
+
+
+def _loads(bird: Bird, change: LoadChange) -> Table:
+    own = bird.wing.resolved_discretisation.elements
+    table = table_of(
+        f"Loads of a beat at mean trim, change from {own} to {change.elements} elements",
+        "quantity", "change", "unit",
+        numbers=(1,),
+    )  # fmt: skip
+    table.add_row("force, wings and all", f"{1e2 * change.force:.2g}", "%")
+    table.add_row("largest circulation", f"{1e2 * change.circulation:.2g}", "%")
+    return table
 
 
 def _bird(bird: Bird) -> Table:

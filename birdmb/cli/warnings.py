@@ -6,19 +6,23 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from birdmb._typing import FloatArray
 from birdmb.aerodynamics.prescribed import driven
 from birdmb.cli.inertia import Spring, hinge_springs, spring_of
+from birdmb.errors import StateError
+from birdmb.models.rigid import RigidModel
+from birdmb.studies.refinement import LARGEST_CHANGE, LoadChange
 from birdmb.topology import Bird, Joint
-from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.outline import wing_outline
 
 _PHASES = 24
+_ROUND_OFF = 1e-9  # m
 _NEAR_RESONANCE = 0.2
 
 
 def warnings_on(bird: Bird) -> list[str]:
     """One sentence for each thing to beware of."""
-    return [*_on_surroundings(bird), *_on_joints(bird), *_on_hinges(bird), *_on_line(bird)]
+    return [*_on_surroundings(bird), *_on_joints(bird), *_on_hinges(bird), *_on_wing(bird)]
 
 
 def _on_surroundings(bird: Bird) -> Iterator[str]:
@@ -67,16 +71,44 @@ def _on_resonance(bird: Bird, name: str, spring: Spring) -> Iterator[str]:
         )
 
 
-def _on_line(bird: Bird) -> Iterator[str]:
-    wing = wing_arrays(bird)
+def _on_wing(bird: Bird) -> Iterator[str]:
+    """On the wing as driven: what the models refuse, else what they fly with."""
+    model = RigidModel(bird)
+    phases = np.arange(_PHASES) / _PHASES
+    try:
+        model.wing_at(phases * bird.period)
+    except StateError as error:
+        yield f"no flight with the wings as driven. {error}"
+        return
+    yield from _on_overlap(bird, model, phases)
+
+
+def _on_overlap(bird: Bird, model: RigidModel, phases: FloatArray) -> Iterator[str]:
     numbers = bird.wing.resolved_discretisation
-    lost = [
-        phase
-        for phase in np.arange(_PHASES) / _PHASES
-        if not wing_outline(wing, driven(wing, phase * bird.period)[0], numbers).converged
-    ]
-    if lost:
+    names = [f"the tip of feather {feather.name}" for feather in bird.feathers]
+    names += ["the shoulder", "the elbow", "the wrist", "the tip of the hand"]
+    places = []
+    for phase in phases:
+        outline = wing_outline(model.wing, driven(model.wing, phase * bird.period)[0], numbers)
+        places.append([*outline.feathers[:, 1, 1], *outline.bones[:, 1]])
+    across = np.array(places)
+    k, i = np.unravel_index(np.argmin(across), across.shape)
+    if across[k, i] < -_ROUND_OFF:
+        affected = np.sum(across.min(axis=1) < -_ROUND_OFF)
         yield (
-            f"no line orthogonal to its chords fits the wing as driven at t = {lost[0]:.3g} T "
-            f"({len(lost)} of {_PHASES} phases): it is folded too far."
+            f"{names[i]} reaches {-1e3 * across[k, i]:.3g} mm across the plane of symmetry at "
+            f"t = {phases[k]:.3g} T, into the other wing ({affected} of {_PHASES} phases). The "
+            f"lifting line does not, so that there are loads; they count the area of both wings "
+            f"there. A larger wing.root.y keeps them apart."
         )
+
+
+def warnings_on_loads(change: LoadChange) -> list[str]:
+    """A sentence if the loads change much on another number of elements."""
+    if not change.largest > LARGEST_CHANGE:
+        return []
+    return [
+        f"the loads change by {change.largest:.1%} on {change.elements} elements a wing: they are "
+        f"no more accurate than that. Set wing.discretisation to more elements, or, if they do not "
+        f"settle, look at the shape of the wing."
+    ]

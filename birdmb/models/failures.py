@@ -13,14 +13,42 @@ from birdmb.topology import Bird
 
 def lifting_line_lost(bird: Bird, t: float, angles: FloatArray) -> StateError:
     """Say at which joint angles the lifting line could not be found."""
-    listed = ", ".join(
-        f"{name} {np.degrees(angle):.1f} deg"
-        for name, angle in zip(bird.angle_names, angles, strict=True)
-    )
     return StateError(
         f"{bird.name}: no line orthogonal to its chords fits the wing at t = {t:.4f} s "
-        f"({listed}); the wing is folded too far, or wing.discretisation has too many elements for "
-        f"its rounding."
+        f"({_listed(bird, angles)}); the wing is folded too far, feathers point forwards or are "
+        f"out of all proportion, or wing.discretisation has too many elements for its rounding."
+    )
+
+
+def wing_misplaced(bird: Bird, t: float, angles: FloatArray, clearance: float) -> StateError:
+    """Say at which joint angles the wing lies where it has no loads.
+
+    `clearance` (m) is negative or NaN, see `birdmb.aerodynamics.elements.clearance`.
+    """
+    at = f"at t = {t:.4f} s ({_listed(bird, angles)})"
+    if np.isnan(clearance):
+        return StateError(
+            f"{bird.name}: a part of the lifting line runs along the stream {at}, where the wing "
+            f"has no span; sweep it less."
+        )
+    root = bird.wing.root.y
+    return StateError(
+        f"{bird.name}: the wings swing through one another {at}: the lifting line is "
+        f"{-1e3 * clearance:.3g} mm across the plane of symmetry, where it has no loads. At the "
+        f"same joint angles wing.root.y must be {_rounded_up(root - clearance):.4g} m or more, not "
+        f"{root:.4g} m; or let the joints flap or sweep the wing less far inwards."
+    )
+
+
+def _rounded_up(length: float) -> float:
+    """A length (m) as it may be typed, to the next tenth of a millimetre."""
+    return float(np.ceil(length * 1e4) / 1e4)
+
+
+def _listed(bird: Bird, angles: FloatArray) -> str:
+    return ", ".join(
+        f"{name} {np.degrees(angle):.4g} deg"
+        for name, angle in zip(bird.angle_names, angles, strict=True)
     )
 
 

@@ -12,7 +12,7 @@ from birdmb.errors import StateError
 from birdmb.models.compiled_calls import COMPILED, calls_compiled_code
 from birdmb.models.determinacy import refuse_undetermined
 from birdmb.models.exudyn_tree import BODY_COORDINATES, ExudynBird, bird_links, typical_inertias
-from birdmb.models.failures import lifting_line_lost, overflow_told
+from birdmb.models.failures import lifting_line_lost, overflow_told, wing_misplaced
 from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.gusts import Gust
@@ -315,7 +315,7 @@ class MultibodyModel(WingModel):
         instant = self.instant(t)
         forward, down = self.air_velocity(t)
         with overflow_told(self.bird, f"the force of the air at t = {t:.4g} s"):
-            body, torques = air_forces(
+            body, torques, clearance = air_forces(
                 self.wing,
                 instant.shape or self._shape(t, angles, rates),
                 self.turning,
@@ -327,6 +327,8 @@ class MultibodyModel(WingModel):
                 v[1] - down,
                 v[2],
             )
+        if not clearance >= 0.0:
+            raise wing_misplaced(self.bird, t, angles, clearance)
         torques += self._spring_torques(instant, angles, rates)
         return np.concatenate([body, torques, torques])
 

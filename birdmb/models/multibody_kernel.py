@@ -6,7 +6,7 @@ from birdmb._kernels import kernel
 from birdmb._typing import FloatArray
 from birdmb.aerodynamics.airframe import Airframe, airframe_loads
 from birdmb.aerodynamics.circulation import element_loads, resultant
-from birdmb.aerodynamics.elements import place_elements
+from birdmb.aerodynamics.elements import clearance, place_elements
 from birdmb.aerodynamics.joints import hinge_torques, joint_torques
 from birdmb.aerodynamics.tail import tail_influence
 from birdmb.wing.arrays import WingArrays
@@ -40,8 +40,10 @@ def air_forces(
     vx: float,
     vz: float,
     pitch_rate: float,
-) -> tuple[FloatArray, FloatArray]:
+) -> tuple[FloatArray, FloatArray, float]:
     """Generalised forces of the air on body (3,) and on joints and hinges (A,) of each wing.
+
+    Third comes the wings' `clearance` (m) from the plane of symmetry; across it forces are NaN.
 
     `shape` is the wing with its first `turning` joints at zero: they carry it as a whole, so their
     `angles` and `rates` turn it into body axes here. `vx`, `vz` (m/s, in the world) are the body's
@@ -53,6 +55,9 @@ def air_forces(
         spin += rates[j] * chain.axis[j]
     shape = turned(shape, frame_after(wing, angles, turning), spin)
     placed = place_elements(shape, wing.root)
+    distance = clearance(placed)
+    if not distance >= 0.0:
+        return np.full(3, np.nan), np.full(angles.size, np.nan), distance
     u, w = body_velocity(theta, vx, vz)
     loads = element_loads(placed, frame.density, frame.profile, u, w, pitch_rate)
     about_joints = joint_torques(wing, chain, placed.position, loads.force, shape.beyond)
@@ -62,4 +67,4 @@ def air_forces(
     if frame.tail.span > 0.0:
         induced[:, 0] = tail_influence(frame.tail, placed.node) @ loads.circulation
     total += airframe_loads(frame, induced, u, w, pitch_rate)[:, 0]
-    return _body_forces(total, theta), torques
+    return _body_forces(total, theta), torques, distance

@@ -13,7 +13,7 @@ from birdmb.aerodynamics.prescribed import (
     prescribed_wing,
 )
 from birdmb.errors import StateError
-from birdmb.models.failures import lifting_line_lost, overflow_told
+from birdmb.models.failures import lifting_line_lost, overflow_told, wing_misplaced
 from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.gusts import Gust
@@ -120,8 +120,7 @@ class RigidModel(WingModel):
     def _first_guess(self) -> FloatArray:
         times = np.linspace(0.0, self.bird.period, 17)[:-1]
         with overflow_told(self.bird, "the flight in which the mean loads balance"):
-            wing = prescribed_wing(self.wing, self.airframe.tail, times, *self.discretisation)
-            return mean_trim(self.bird, wing, self.airframe)
+            return mean_trim(self.bird, self.wing_at(times), self.airframe)
 
     def _integrate(
         self, x0: npt.ArrayLike, t0: float, t1: float
@@ -161,9 +160,20 @@ class RigidModel(WingModel):
 
     def _tabulate(self, t0: float, duration: float, steps: int) -> PrescribedWing:
         times = t0 + duration * np.arange(2 * steps + 1) / max(2 * steps, 1)
+        return self.wing_at(times)
+
+    def wing_at(self, times: FloatArray) -> PrescribedWing:
+        """The wing on its drivers at `times` (P,) s; raises `StateError` where it has no loads."""
         with overflow_told(self.bird, "the wing's circulation"):
             wing = prescribed_wing(self.wing, self.airframe.tail, times, *self.discretisation)
         if not wing.converged.all():
             t = float(times[np.argmin(wing.converged)])
             raise lifting_line_lost(self.bird, t, driven(self.wing, t)[0])
+        misplaced = ~(wing.clearance >= 0.0)
+        if misplaced.any():
+            worst = int(np.argmin(np.where(misplaced, wing.clearance, np.inf)))
+            t = float(times[worst])
+            raise wing_misplaced(
+                self.bird, t, driven(self.wing, t)[0], float(wing.clearance[worst])
+            )
         return wing

@@ -10,11 +10,11 @@ import numpy.typing as npt
 from birdmb._typing import FloatArray
 from birdmb.aerodynamics.airframe import airframe
 from birdmb.aerodynamics.circulation import element_loads
-from birdmb.aerodynamics.elements import place_elements
+from birdmb.aerodynamics.elements import clearance, place_elements
 from birdmb.aerodynamics.joints import hinge_torques, joint_torques
 from birdmb.aerodynamics.prescribed import driven
 from birdmb.errors import StateError
-from birdmb.models.failures import lifting_line_lost, overflow_told
+from birdmb.models.failures import lifting_line_lost, overflow_told, wing_misplaced
 from birdmb.models.flight import Flight
 from birdmb.models.gusts import Gust
 from birdmb.models.inputs import flattened
@@ -132,7 +132,8 @@ class WingModel(ABC):
         """Aerodynamic loads at time t (s) in state x (n,).
 
         Raises:
-            StateError: the lifting line cannot be found, or the state is not finite.
+            StateError: the lifting line cannot be found or crosses the plane of symmetry, or the
+                state is not finite.
         """
         state = np.asarray(x, dtype=float)
         if not np.isfinite(state).all():
@@ -155,6 +156,9 @@ class WingModel(ABC):
         if not shape.converged:
             raise lifting_line_lost(self.bird, t, angles)
         elements = place_elements(shape, self.wing.root)
+        distance = clearance(elements)
+        if not distance >= 0.0:
+            raise wing_misplaced(self.bird, t, angles, distance)
         u, w, q, theta = self.body_state(state)
         c, s = np.cos(theta), np.sin(theta)
         motion = u - forward * c + down * s, w - forward * s - down * c, q

@@ -15,11 +15,12 @@ from birdmb.studies.tail import stability_openings, tail_study, within_rules
 from birdmb.studies.trim import Trim, TrimGuess, trim_flight
 from birdmb.studies.tunnel import tunnel_and_free_flight
 from birdmb.studies.tunnel_figure import plot_tunnel_and_free_flight
-from birdmb.studies.validity import Excess, TailExcess, Validity, assess_validity
+from birdmb.studies.validity import Excess, Overlap, TailExcess, Validity, assess_validity
 
 __all__ = [
     "Excess",
     "ModelFactory",
+    "Overlap",
     "ScaledBird",
     "TailExcess",
     "Trim",

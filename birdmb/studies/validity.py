@@ -30,11 +30,12 @@ from matplotlib.figure import Figure
 from birdmb._typing import BoolArray, FloatArray
 from birdmb.models import FlightCycle, WingModel
 from birdmb.studies.validity_figure import plot_validity
-from birdmb.wing.outline import wing_outline
+from birdmb.wing.outline import WingOutline, wing_outline
 
 TIP_AREA = 0.01
 LARGEST_ANGLE = float(np.radians(15.0))
 LARGEST_REDUCED_FREQUENCY = 0.2
+LARGEST_OVERLAP = 0.01
 LARGEST_TAIL_ANGLE = float(np.radians(5.0))
 
 
@@ -110,6 +111,32 @@ class TailExcess:
 
 
 @dataclass(frozen=True)
+class Overlap:
+    """How the wings reach into one another across the plane of symmetry; `str()` is a sentence."""
+
+    value: float
+    """Largest part of the wing's area that is across the plane."""
+    limit: float
+    """The limit it exceeds."""
+    time: float
+    """Time when it is largest, s."""
+    phase: float
+    """The same as a part of the beat, in [0, 1)."""
+    share: float
+    """Part of the beat that is beyond the limit."""
+    quantity: str = "overlap of the wings"
+
+    def __str__(self) -> str:
+        """Say how much and when."""
+        return (
+            f"The wings reach into one another: {self.value:.1%} of the wing's area, beyond "
+            f"{self.limit:.0%}, is across the plane of symmetry at t = {self.time:.4g} s (phase "
+            f"{self.phase:.2f} of the beat); {self.share:.0%} of the beat are beyond it. The model "
+            f"counts the loads of both wings there."
+        )
+
+
+@dataclass(frozen=True)
 class Validity:
     """How far a flight is from the limits of the quasi-steady model.
 
@@ -122,6 +149,7 @@ class Validity:
         reduced_frequency: k = pi f c/U, with the mean chord (area by span, averaged over the beat)
             and the speed of the flight; that is omega c/(2 U), on half the chord.
         largest_tail_angle: largest modulus of the tail's angle of attack, rad; NaN without a tail.
+        largest_overlap: largest part of the wing's area that is across the plane of symmetry.
         excesses: where the limits are exceeded; none if the flight is within them.
         cycle: the flight.
     """
@@ -129,7 +157,8 @@ class Validity:
     data: xr.Dataset
     reduced_frequency: float
     largest_tail_angle: float
-    excesses: tuple[Excess | TailExcess, ...]
+    largest_overlap: float
+    excesses: tuple[Excess | TailExcess | Overlap, ...]
     cycle: FlightCycle
 
     @cached_property
@@ -139,7 +168,8 @@ class Validity:
         Relative to the body, along its z axis (Taylor, Nudds & Thomas 2003).
         """
         model = cast(WingModel, self.cycle.model)
-        return model.bird.gait.frequency * _tip_excursion(self.cycle, model) / self.cycle.mean_speed
+        heights = [outline.line[-1, 2] for outline in _outlines(self.cycle)]
+        return model.bird.gait.frequency * float(np.ptp(heights)) / self.cycle.mean_speed
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -163,6 +193,7 @@ def assess_validity(
     largest_angle: float = LARGEST_ANGLE,
     largest_reduced_frequency: float = LARGEST_REDUCED_FREQUENCY,
     largest_tail_angle: float = LARGEST_TAIL_ANGLE,
+    largest_overlap: float = LARGEST_OVERLAP,
 ) -> Validity:
     """Compare a limit cycle with the limits of the quasi-steady model, element by element.
 
@@ -171,6 +202,8 @@ def assess_validity(
         largest_angle: largest modulus of the effective angle of attack, rad.
         largest_reduced_frequency: largest k of the whole flight.
         largest_tail_angle: largest modulus of the tail's angle of attack, rad.
+        largest_overlap: largest part of the wing's area across the plane of symmetry. (A lifting
+            line that crosses it has no loads and no cycle: `WingModel.loads`.)
     """
     model = cast(WingModel, cycle.model)
     frequency = model.bird.gait.frequency
@@ -181,7 +214,7 @@ def assess_validity(
     span = np.array([loads.width.sum() for loads in cycle.beat.loads])[:-1]
     mean_chord = float((area.sum(axis=1) / span).mean())
     k = np.pi * frequency * mean_chord / cycle.mean_speed
-    excesses: list[Excess | TailExcess] = list(_beyond_angle(data, largest_angle))
+    excesses: list[Excess | TailExcess | Overlap] = list(_beyond_angle(data, largest_angle))
     if k > largest_reduced_frequency:
         local = data["reduced_frequency"].values
         beyond = local > largest_reduced_frequency
@@ -191,25 +224,27 @@ def assess_validity(
         )
     tail_angle = np.abs(cycle.beat.tail_angle[:-1])
     if (tail_angle > largest_tail_angle).any():
-        excesses.append(_tail_excess(cycle, tail_angle, largest_tail_angle))
+        excesses.append(TailExcess(*_worst_of_beat(cycle, tail_angle, largest_tail_angle)))
+    overlap = np.array([outline.area_across for outline in _outlines(cycle)[:-1]])
+    if (overlap > largest_overlap).any():
+        excesses.append(Overlap(*_worst_of_beat(cycle, overlap, largest_overlap)))
     return Validity(
         data=data,
         reduced_frequency=float(k),
         largest_tail_angle=float(tail_angle.max()),
+        largest_overlap=float(overlap.max()),
         excesses=tuple(excesses),
         cycle=cycle,
     )
 
 
-def _tail_excess(cycle: FlightCycle, angle: FloatArray, limit: float) -> TailExcess:
-    time = float(cycle.beat.times[np.argmax(angle)])
-    return TailExcess(
-        value=float(angle.max()),
-        limit=limit,
-        time=time,
-        phase=float(np.mod(time / cycle.period, 1.0)),
-        share=float(np.mean(angle > limit)),
-    )
+def _worst_of_beat(
+    cycle: FlightCycle, values: FloatArray, limit: float
+) -> tuple[float, float, float, float, float]:
+    """Of `values` (K,), one an instant: the largest, `limit`, time, phase and share beyond it."""
+    time = float(cycle.beat.times[np.argmax(values)])
+    phase = float(np.mod(time / cycle.period, 1.0))
+    return float(values.max()), limit, time, phase, float(np.mean(values > limit))
 
 
 def _along_span_and_beat(cycle: FlightCycle, frequency: float) -> xr.Dataset:
@@ -289,10 +324,11 @@ def _excess(
     )
 
 
-def _tip_excursion(cycle: FlightCycle, model: WingModel) -> float:
+def _outlines(cycle: FlightCycle) -> list[WingOutline]:
+    """The wing at each instant of the beat."""
+    model = cast(WingModel, cycle.model)
     discretisation = model.bird.wing.resolved_discretisation
-    heights = [
-        wing_outline(model.wing, model.joint_motion(t, x)[0], discretisation).line[-1, 2]
+    return [
+        wing_outline(model.wing, model.joint_motion(t, x)[0], discretisation)
         for t, x in zip(cycle.beat.times, cycle.beat.states, strict=True)
     ]
-    return float(np.ptp(heights))

@@ -27,7 +27,7 @@ class WingArrays(NamedTuple):
     feather_rest_angle: FloatArray  # (F,) 0 aft, pi/2 outwards along the bone
     feather_share: FloatArray  # (F, J) of each joint's angle that the feather follows
     feather_hinge: IntArray  # (F,) which of the A angles turns the feather on its hinge, -1: none
-    square_tip: bool
+    square_tip: bool  # the wing ends in a tip edge, not in a point
     offset: FloatArray  # (A,) drivers: offset + amplitude sin(2 pi f t + phase)
     amplitude: FloatArray
     phase: FloatArray
@@ -54,9 +54,21 @@ def wing_arrays(bird: Bird) -> WingArrays:
         feather_hinge=np.array(
             [angles.index(f.hinge_name) if f.hinge else -1 for f in feathers], dtype=np.int64
         ),
-        square_tip=bool(np.cos(feathers[-1].rest_angle)>np.cos(np.pi/4)),
+        square_tip=_has_square_tip(bird),
         offset=np.array([joint.offset for joint in joints] + rest),
         amplitude=np.array([joint.amplitude for joint in joints] + still),
         phase=np.array([joint.phase for joint in joints] + still),
         angular_frequency=2.0 * np.pi * bird.gait.frequency,
     )
+
+
+def _has_square_tip(bird: Bird) -> bool:
+    """Whether, joints at zero, the edge from hand tip to last feather tip runs aft more than out.
+
+    Such an edge is no leading edge: a line that went on along it would have to turn backwards. At
+    45 degrees both views of the tip give loads that settle on more elements.
+    """
+    last = bird.feathers[-1]
+    outwards = last.length * np.sin(last.rest_angle)
+    backwards = 2.0 * bird.wing.half_thickness + last.length * np.cos(last.rest_angle)
+    return bool(outwards < backwards)

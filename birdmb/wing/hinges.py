@@ -10,18 +10,19 @@ from birdmb._kernels import kernel
 from birdmb._typing import Array, ComplexArray, FloatArray
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.edges import COMPLEX_STEP, wing_edges
-from birdmb.wing.line import PairedEdges, moved_line, solved_line
+from birdmb.wing.line import PairedEdges, line_to_follow, moved_line, solved_line
 from birdmb.wing.one_step import one_step_line
 
 
 @kernel
 def orthogonal_wing(
     wing: WingArrays, angles: ComplexArray, stations: int, rounding: float
-) -> tuple[PairedEdges, Array, FloatArray]:
+) -> tuple[PairedEdges, Array, Array, FloatArray]:
     """Orthogonal line of a wing at `angles` (A,) rad, whose imaginary parts carry rates.
 
-    Returns the paired edges, the leading edge's vertices (5, 3) m and the velocities (H, N, 3) m of
-    the N control points, every second station, per rate of each hinge.
+    Returns the paired edges, the leading edge's vertices (m, 3) m, the points (stations, 3) m from
+    which the span direction is taken and the velocities (H, N, 3) m of the N control points, every
+    second station, per rate of each hinge.
     """
     leading, trailing = wing_edges(wing, angles)
     line = solved_line(leading, trailing, stations, rounding)
@@ -30,17 +31,14 @@ def orthogonal_wing(
     for h in range(velocity.shape[0]):
         moving_leading, moving_trailing = wing_edges(wing, _one_hinge_moving(wing, angles, h))
         velocity[h] = _control_velocity(moved_line(line, moving_leading, moving_trailing, rounding))
-    return pairs, leading, velocity
+    return pairs, leading, line_to_follow(line, pairs), velocity
 
 
 @kernel
 def one_step_wing(
     wing: WingArrays, angles: ComplexArray, stations: int
 ) -> tuple[PairedEdges, Array, Array, FloatArray]:
-    """As `orthogonal_wing` with the published line, whose own direction (stations, 3) comes third.
-
-    See `one_step_line` about that direction.
-    """
+    """As `orthogonal_wing` with the published line; see `one_step_line` about its direction."""
     leading, trailing = wing_edges(wing, angles)
     pairs, guide = one_step_line(leading, trailing, stations)
     velocity = _no_velocity(wing, stations)

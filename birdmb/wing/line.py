@@ -6,10 +6,11 @@ shoulder are a pair, and so are their ends at a pointed tip; the other pairs fol
 
     c_j . (P_{j+1} - P_{j-1}) = 0,
 
-with differences to one side where `birdmb.wing.line_ends` says so, solved for one shift d_j a station, by which the chord turns about P_j: A_j = A(s_j - d_j) and
-B_j = B(s_j + 3 d_j), with A and B the rounded edges. The system is tridiagonal; Newton's method
-starts at d = 0 on few stations, which are then doubled, so the line is a function of the joint
-angles alone, as smooth as the edges are.
+with differences to one side where `birdmb.wing.line_ends` says so, solved for one shift d_j a
+station, by which the chord turns about P_j: A_j = A(s_j - d_j) and B_j = B(s_j + 3 d_j), with A and
+B the rounded edges. The system is tridiagonal; Newton's method starts at d = 0 on few stations,
+which are then doubled, so the line is a function of the joint angles alone, as smooth as the edges
+are.
 """
 
 from typing import NamedTuple
@@ -147,9 +148,9 @@ def _newton_step(
         diagonal[j] = 0.0
         ahead, here, behind = 1.0, 0.0, -1.0
         if j == 1:
-            here, behind = -ends.shoulder, ends.shoulder - 1.0
+            here, behind = -ends.shoulder.real, ends.shoulder.real - 1.0
         if j == n - 1:
-            ahead, here, behind = 0.0, ends.tip, -ends.tip
+            ahead, here, behind = 0.0, ends.tip.real, -ends.tip.real
         for i in range(3):
             c = B[j, i] - A[j, i]
             diagonal[j] += dc[j, i] * steps[j, i] + here * c * dP[j, i]
@@ -238,6 +239,21 @@ def moved_line(
     moving_shift += 1j * _newton_step(leading, trailing, s, shift, A, B, steps, ends, rate)
     moving_A, moving_B = _pair(moving_leading, moving_trailing, s, moving_shift)
     return PairedEdges(moving_A, moving_B, converged)
+
+
+@kernel
+def line_to_follow(line: SolvedLine, pairs: PairedEdges) -> Array:
+    """Points (n, 3) m whose differences are the direction of the line of `pairs`.
+
+    They are its own but for the shoulder's where the chord there is given against the equation
+    (`LineEnds.shoulder`): beside it the line is displaced, and its direction is that of what
+    follows.
+    """
+    points = 0.75 * pairs.leading + 0.25 * pairs.trailing
+    weight = line_ends(line.leading, line.trailing, line.station[-1] - line.station[-2]).shoulder
+    first = points[1] - points[0]
+    points[0] -= weight.real * (points[2] - points[1] - first)
+    return points
 
 
 @kernel

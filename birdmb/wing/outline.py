@@ -6,9 +6,10 @@ from typing import cast
 import numpy as np
 
 from birdmb._typing import FloatArray
+from birdmb.errors import StateError
 from birdmb.topology import Bird, Discretisation
 from birdmb.wing.arrays import WingArrays, wing_arrays
-from birdmb.wing.edges import feather_ends, leading_edge, skeleton
+from birdmb.wing.edges import feather_ends, leading_edge, skeleton, wing_edges
 from birdmb.wing.line import orthogonal_line
 from birdmb.wing.one_step import one_step_line
 from birdmb.wing.rounded import point, rounded_polyline
@@ -44,26 +45,67 @@ class WingOutline:
 
         The element at the root reaches over the body to the centre line.
         """
-        inner, outer = self.chords[:-1].copy(), self.chords[1:]
-        inner[0, :, 1] = 0.0
-        return np.stack([inner[:, 0], outer[:, 0], outer[:, 1], inner[:, 1]], axis=1)
+        chords = self.chords.copy()
+        chords[0, :, 1] = 0.0
+        return _between(chords)
+
+    @property
+    def area_across(self) -> float:
+        """Part of the wing's area that lies across the plane of symmetry, in the other wing's half.
+
+        Without the gap over the body. Along the chords exact, between them by the mean of
+        neighbouring ones.
+        """
+        front, back = self.chords[:, 0, 1], self.chords[:, 1, 1]
+        lower, upper = np.minimum(front, back), np.maximum(front, back)
+        extent = np.where(upper > lower, upper - lower, 1.0)
+        part = np.where(lower < 0.0, np.where(upper <= 0.0, 1.0, -lower / extent), 0.0)
+        areas = _areas(_between(self.chords))
+        return float(np.sum(areas * 0.5 * (part[:-1] + part[1:])) / np.sum(areas))
+
+
+def _between(chords: FloatArray) -> FloatArray:
+    """Panels (N, 4, 3) m between neighbouring chords (N + 1, 2, 3)."""
+    inner, outer = chords[:-1], chords[1:]
+    return np.stack([inner[:, 0], outer[:, 0], outer[:, 1], inner[:, 1]], axis=1)
+
+
+def _areas(panels: FloatArray) -> FloatArray:
+    """Areas (N,) m2 of the panels (N, 4, 3)."""
+    diagonals = np.cross(panels[:, 2] - panels[:, 0], panels[:, 3] - panels[:, 1])
+    return np.linalg.norm(diagonals, axis=1) / 2.0
 
 
 def wing_outline(
     wing: WingArrays, angles: FloatArray, discretisation: Discretisation
 ) -> WingOutline:
-    """Outline of the right wing at `angles` (A,) rad, discretised as the loads are."""
+    """Outline of the right wing at `angles` (A,) rad, discretised as the loads are.
+
+    Raises:
+        StateError: an edge of the wing has no extent.
+    """
+    try:
+        return _outline(wing, angles, discretisation)
+    except ZeroDivisionError:
+        raise StateError(
+            "two neighbouring points of the wing's edge coincide; give the feathers other lengths, "
+            "positions or rest angles, and the bones a length that counts beside theirs."
+        ) from None
+
+
+def _outline(wing: WingArrays, angles: FloatArray, discretisation: Discretisation) -> WingOutline:
     # Complex as the model's own calls are (for rates, here none): no kernel is compiled twice.
     still = angles.astype(complex)
     bones = skeleton(wing, still)
     roots, tips = feather_ends(wing, bones, still)
     front = leading_edge(wing, bones, tips[-1])
+    leading, trailing = wing_edges(wing, still)
     stations = 2 * discretisation.elements
     edges = front.real.copy(), tips.real.copy()
     if discretisation.scheme == "one-step":
-        pairs, _ = one_step_line(front, tips, stations)
+        pairs, _ = one_step_line(leading, trailing, stations)
     else:
-        pairs = orthogonal_line(front, tips, stations, discretisation.rounding)
+        pairs = orthogonal_line(leading, trailing, stations, discretisation.rounding)
         edges = (
             _rounded(edges[0], discretisation.rounding),
             _rounded(edges[1], discretisation.rounding),
@@ -95,7 +137,5 @@ def span_and_area(bird: Bird) -> tuple[float, float]:
     angles = wing.offset.copy()  # of hinges they are the rest angles
     angles[: len(bird.joints)] = 0.0
     outline = wing_outline(wing, angles, bird.wing.resolved_discretisation)
-    panels = outline.panels
-    diagonals = np.cross(panels[:, 2] - panels[:, 0], panels[:, 3] - panels[:, 1])
-    area = 2.0 * float(np.linalg.norm(diagonals, axis=1).sum() / 2.0)
+    area = 2.0 * float(_areas(outline.panels).sum())
     return 2.0 * float(outline.leading[:, 1].max()), area

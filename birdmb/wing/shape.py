@@ -12,7 +12,7 @@ import numpy as np
 from birdmb._kernels import kernel
 from birdmb._typing import ComplexArray, FloatArray
 from birdmb.wing.arrays import WingArrays
-from birdmb.wing.edges import COMPLEX_STEP
+from birdmb.wing.edges import COMPLEX_STEP, HUMERUS, skeleton
 from birdmb.wing.hinges import one_step_wing, orthogonal_wing
 from birdmb.wing.line import PairedEdges
 from birdmb.wing.rounded import smooth_step
@@ -28,7 +28,7 @@ class WingShape(NamedTuple):
     span_direction: FloatArray  # (N, 3) outwards
     chord: FloatArray  # (N,) m
     beyond: FloatArray  # (N, 2) fraction of the element's load carried beyond the elbow, the wrist
-    converged: bool  # the lifting line was found to its tolerance
+    converged: bool  # the lifting line was found, and its chords point backwards along the humerus
     hinge_velocity: FloatArray  # (H, N, 3) m, of the control points per rate of each hinge
 
 
@@ -93,12 +93,34 @@ def wing_shape(
     `published` takes the reference program's line instead of the orthogonal one.
     """
     moving = angles + 1j * COMPLEX_STEP * rates
-    if published:
-        pairs, leading, guide, per_hinge = one_step_wing(wing, moving, 2 * elements)
-    else:
-        pairs, leading, per_hinge = orthogonal_wing(wing, moving, 2 * elements, rounding)
-        guide = 0.75 * pairs.leading + 0.25 * pairs.trailing
-    return _assemble(pairs, guide, leading, per_hinge, rounding, published)
+    try:
+        if published:
+            pairs, leading, guide, per_hinge = one_step_wing(wing, moving, 2 * elements)
+        else:
+            pairs, leading, guide, per_hinge = orthogonal_wing(wing, moving, 2 * elements, rounding)
+        shape = _assemble(pairs, guide, leading, per_hinge, rounding, published)
+    except ZeroDivisionError:  # a leg or a chord without length
+        return _no_shape(wing, elements)
+    aft = -skeleton(wing, moving).rotation[HUMERUS, :, 0].real
+    # Written so that what is not finite does not pass.
+    backwards = bool((shape.chord_direction @ aft > 0.0).all())
+    sound = backwards and bool(np.isfinite(shape.line).all() and np.isfinite(shape.velocity).all())
+    return shape._replace(converged=bool(shape.converged) and sound)
+
+
+def _no_shape(wing: WingArrays, elements: int) -> WingShape:
+    vectors = np.full((elements, 3), np.nan)
+    return WingShape(
+        line=np.full((2 * elements, 3), np.nan),
+        velocity=vectors,
+        chord_direction=vectors,
+        normal=vectors,
+        span_direction=vectors,
+        chord=vectors[:, 0].copy(),
+        beyond=np.zeros((elements, 2)),
+        converged=False,
+        hinge_velocity=np.zeros((wing.offset.size - wing.segment.size, elements, 3)),
+    )
 
 
 @kernel

@@ -6,25 +6,31 @@ import pytest
 
 from birdmb import load_bird
 from birdmb.cli.inertia import spring_of
-from birdmb.cli.warnings import warnings_on
+from birdmb.cli.warnings import warnings_on, warnings_on_loads
+from birdmb.studies.refinement import LoadChange
 
 from .conftest import COMPLIANT, HINGED, IBIS
 
 POINTS = {f"segments.{bone}.inertia": [0, 0, 0] for bone in ("humerus", "forearm", "hand")}
 MASSLESS = POINTS | {f"segments.{bone}.mass": 0 for bone in ("humerus", "forearm", "hand")}
 
+# Where no feather reaches across the plane of symmetry, m.
+WIDE = 0.08
+
 
 def test_what_the_bird_is(run):
-    result = run("check", COMPLIANT)
+    result = run("check", COMPLIANT, "--set", f"wing.root.y={WIDE}")
     assert result.exit_code == 0, result.stderr
     rows = [" ".join(line.split()) for line in result.stdout.splitlines()]
     for row in (
         "mass of the whole bird 1.26 kg",
-        "span, joints at zero 1.360 m",
+        "span, joints at zero 1.420 m",
         "elements per wing 32 orthogonal",
         "humerus 0.134 0.01",
         "shoulder.flap humerus compliant 0.00 42.00 180.00",
         "shoulder.flap 20 0.2 0.00157 18 Hz",
+        "Loads of a beat at mean trim, change",
+        "from 32 to 64 elements",
         "No warnings.",
     ):
         assert row in rows
@@ -41,7 +47,6 @@ def test_hinges_of_feathers(run):
         "span, joints at zero 1.360 m",
         "feathers.5.hinge 1 0.002 1.05e-05 49.1 Hz",
         "feathers.3.hinge 1 0.002 1.5e-05 41.1 Hz",
-        "No warnings.",
     ):
         assert row in rows
     loose = run("check", HINGED, "--set", "feathers.5.hinge.stiffness=0")
@@ -56,8 +61,30 @@ def test_warnings_are_printed_and_no_error(run):
     assert "Warning: gravity is 0: nothing has to be carried." in result.stdout
 
 
+def test_loads_that_change_much_are_told():
+    assert warnings_on_loads(LoadChange(64, 0.019, 0.0)) == []
+    (force,) = warnings_on_loads(LoadChange(64, 0.031, 0.0))
+    assert "change by 3.1% on 64 elements" in force
+    (circulation,) = warnings_on_loads(LoadChange(64, 0.0, 0.05))
+    assert "change by 5.0% on 64 elements" in circulation
+
+
 # values, and what the only warning must say
 CASES = {
+    "feathers across the plane": (
+        {"wing.root.y": 0.05},
+        "the tip of feather 7 reaches 19.2 mm across the plane of symmetry at t = 0.5 T",
+    ),
+    "a line across the plane": ({"wing.root.y": 0.005}, "wing.root.y must be 0.0166 m or more"),
+    "no gap over the body": ({"wing.root.y": 0.0}, "wing.root.y must be 0.0166 m or more"),
+    "wings through one another": (
+        {"shoulder.flap.offset_deg": -90, "shoulder.flap.amplitude_deg": 100},
+        "the wings swing through one another",
+    ),
+    "feathers forwards": (
+        {f"feathers.{name}.rest_angle_deg": 180 for name in "7531"},
+        "feathers point forwards",
+    ),
     "none": ({}, None),
     "no gravity": ({"gravity": 0}, "gravity is 0"),
     "no air": ({"air.density": 0}, "air.density is 0"),
@@ -98,7 +125,7 @@ CASES = {
 
 @pytest.mark.parametrize(("values", "says"), CASES.values(), ids=CASES)
 def test_warnings(values, says):
-    warnings = warnings_on(load_bird(IBIS).with_values(values))
+    warnings = warnings_on(load_bird(IBIS).with_values({"wing.root.y": WIDE} | values))
     assert len(warnings) == (says is not None), warnings
     assert says is None or says in warnings[0]
 

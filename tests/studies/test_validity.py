@@ -1,6 +1,7 @@
 """The report on validity: warnings where an artificial case puts them, and only there."""
 
 import copy
+import itertools
 from dataclasses import replace
 
 import numpy as np
@@ -143,6 +144,31 @@ def test_reduced_frequency_warns_beyond_its_limit(rigid_cycle):
     k, e = np.unravel_index(np.argmax(local), local.shape)
     assert (excess.time, excess.element) == (rigid_cycle.beat.times[k], e)
     assert "unsteady wake" in str(excess)
+
+
+def test_overlap_of_the_wings_is_told_beyond_its_limit(rigid_cycle):
+    """Feather 7 reaches across the plane of symmetry while the arm is swept back, at T/2."""
+    assert 0 < assess_validity(rigid_cycle).largest_overlap < 0.01
+    found = assess_validity(rigid_cycle, largest_overlap=1e-4)
+    (excess,) = found.excesses
+    assert excess.quantity == "overlap of the wings"
+    assert excess.value == found.largest_overlap
+    assert excess.phase == pytest.approx(0.5, abs=0.02)
+    # The area by fine points of each panel, each of them on one side or the other.
+    model = rigid_cycle.model
+    numbers = model.bird.wing.resolved_discretisation
+    at = rigid_cycle.beat.times.tolist().index(excess.time)
+    angles, _ = model.joint_motion(excess.time, rigid_cycle.beat.states[at])
+    chords = wing_outline(model.wing, angles, numbers).chords
+    a, b = np.meshgrid(*2 * [(np.arange(100) + 0.5) / 100], indexing="ij")
+    across = whole = 0.0
+    for inner, outer in itertools.pairwise(chords):
+        along = [p[None, None] + a[..., None] * (q - p) for p, q in zip(inner, outer, strict=True)]
+        y = (along[0] + b[..., None] * (along[1] - along[0]))[..., 1]
+        area = np.linalg.norm(np.cross(outer[1] - inner[0], outer[0] - inner[1])) / 2
+        across, whole = across + area * np.mean(y < 0), whole + area
+    assert excess.value == pytest.approx(across / whole, rel=0.1)
+    assert "across the plane of symmetry at t = " in str(excess)
 
 
 def test_figure_shows_both_angles(rigid_cycle):
