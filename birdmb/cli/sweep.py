@@ -15,6 +15,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, SpinnerColumn
 
 from birdmb.models import MultibodyModel, RigidModel
 from birdmb.studies.sweeps import Finished, Study, Trimming, sweep
+from birdmb.studies.sweeps.verdicts import jump_lines, short, verdict_lines
 from birdmb.topology import Bird
 
 _LISTED = 5
@@ -98,32 +99,31 @@ class SweepProgress:
 def _line(point: Finished) -> str:
     outcome = point.outcome
     assert outcome is not None
-    values = " ".join(f"{name}={_short(value)}" for name, value in point.values.items())
+    values = " ".join(f"{name}={short(value)}" for name, value in point.values.items())
     return f"{point.done}/{point.total}  {values}  {_became(outcome)}  {outcome.seconds:.2f} s"
 
 
 def _became(outcome: Any) -> str:
     if outcome.result is None:
         return f"failed: {outcome.reason}"
-    real, imaginary = (outcome.result[f"multiplier_{part}"][0] for part in ("real", "imag"))
-    return f"{outcome.result['stability']}, |Λ|max {np.hypot(real, imaginary):.4f}"
-
-
-def _short(value: object) -> str:
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+    result = outcome.result
+    real, imaginary = (result[f"multiplier_{part}"][0] for part in ("real", "imag"))
+    return (
+        f"{result['stability']}, |Λ|max {np.hypot(real, imaginary):.4f}, "
+        f"{result['mean_speed']:.2f} m/s, climb {result['climb_rate']:+.2f} m/s"
+    )
 
 
 def _summary(study: Study) -> str:
-    stabilities = [o.result["stability"] for o in study.outcomes.values() if o.result is not None]
-    counted = [f"{stabilities.count(kind)} {kind}" for kind in sorted(set(stabilities))]
-    failures = study.failures
+    data, failures = study.to_xarray(), study.failures
+    found = len(study.outcomes) - len(failures)
     lines = [
-        f"{study.path}: {study.total} points, {len(stabilities)} with a limit cycle"
-        f"{' (' + ', '.join(counted) + ')' if counted else ''}, {len(failures)} without."
+        f"{study.path}: {study.total} points, {found} with a limit cycle, {len(failures)} without."
     ]
+    lines += [f"  {line}" for line in verdict_lines(data)]
     for values, reason in failures[:_LISTED]:
-        listed = ", ".join(f"{name} = {_short(value)}" for name, value in values.items())
+        listed = ", ".join(f"{name} = {short(value)}" for name, value in values.items())
         lines.append(f"  {listed}: {reason}")
     if len(failures) > _LISTED:
         lines.append(f"  ... and {len(failures) - _LISTED} more: Study.open(...).failures")
-    return "\n".join(lines)
+    return "\n".join(lines + jump_lines(data))

@@ -1,5 +1,6 @@
 """Sweeps: one set of bits whatever computes them, stores that refuse, resume and grow, datasets."""
 
+import re
 import sqlite3
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from functools import partial
@@ -94,7 +95,7 @@ def test_compliant_birds_have_the_same_bits_here_and_in_two_processes(ibis_compl
 
 
 def test_warm_points_need_few_flows(ibis_compliant, tmp_path, monkeypatch):
-    """What a point costs: about seven steps, 12 flows for the Jacobian, 7 for its errors."""
+    """About seven steps, 12 flows for the Jacobian, 7 for its errors, 1 for each parameter."""
     bird = ibis_compliant.with_values({"wing.discretisation.elements": 4})
     counts, flow = [], birdmb.MultibodyModel.flow
 
@@ -117,7 +118,7 @@ def test_warm_points_need_few_flows(ibis_compliant, tmp_path, monkeypatch):
     data = study.to_xarray()
     assert (data.status == "found").all()
     # Two flows are those of the error of the integration.
-    assert max(counts[1:4]) <= 1 + 8 + 12 + 7 + 2
+    assert max(counts[1:4]) <= 1 + 8 + 12 + 7 + 2 + 1
     for place in range(1, 4):
         model = partial(birdmb.MultibodyModel, steps_per_beat=60)(
             bird.with_joint("shoulder.flap", stiffness=float(data[f"{FLAP}.stiffness"][place]))
@@ -293,13 +294,16 @@ def test_stored_bird_varies_like_the_one_swept(inline):
 
 def test_maps_show_failures_and_quantities(inline):
     figure = inline.plot()
-    assert [axes.get_ylabel() for axes in figure.axes[4:]] == [
+    assert [axes.get_ylabel() for axes in figure.axes[6:]] == [
         "|Λ|max",
+        "mean speed (m/s)",
+        "climb rate (m/s)",
         "time constant (s)",
         "wing power (W)",
-        "climb rate (m/s)",
+        "cost of transport",
     ]
-    assert [len(axes.patches) for axes in figure.axes[:4]] == [6, 6, 6, 6]
+    assert [len(axes.patches) for axes in figure.axes[:6]] == [6] * 6
+    assert re.search(r"18 unstable: \S+ to \S+ m/s, climbing \S+ to \S+ m/s", figure.get_suptitle())
     single = inline.plot("mean_speed")
     assert single.axes[0].get_xlabel() == "shoulder.flap.amplitude (°)"
     with pytest.raises(SweepError, match=r"No quantity is called speed; there are .*mean_speed"):
@@ -338,4 +342,4 @@ def test_more_than_two_parameters_must_be_fixed_for_a_picture(tmp_path):
     study = sweep(coarse_bird(), grid, store=tmp_path / "s.db", executor=Inline(), model=QUICK)
     with pytest.raises(SweepError, match="fix all but two"):
         study.plot()
-    assert len(study.plot(at={"gait.frequency": 4.1}).axes) == 8
+    assert len(study.plot(at={"gait.frequency": 4.1}).axes) == 12

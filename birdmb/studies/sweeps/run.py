@@ -158,9 +158,15 @@ class _Filling:
         return "; ".join(texts + more)
 
     def _task(self, place: Place) -> Task:
-        values = self._grid.values(place)
-        guess = self._guess(place)
-        return Task(self._bird, self._model, self._search, values, guess, self._trimming)
+        return Task(
+            bird=self._bird,
+            model=self._model,
+            search=self._search,
+            values=self._grid.values(place),
+            steps=self._grid.steps(place),
+            guess=self._guess(place),
+            trimming=self._trimming,
+        )
 
     def _guess(self, place: Place) -> Guess | None:
         before = parent(place)

@@ -19,7 +19,7 @@ from birdmb.studies.sweeps.point import Outcome
 from birdmb.studies.sweeps.settings import difference
 
 _APPLICATION = 0x62697264  # "bird": tells a study from any other SQLite file
-_FORMAT = 2
+_FORMAT = 3
 # Packages whose version may change the last bits of a result.
 _SOFTWARE = ("birdmb", "exudyn", "numba", "numpy", "scipy")
 _TABLES = (
