@@ -14,6 +14,8 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, SpinnerColumn, TextColumn
 
 from birdmb.models import MultibodyModel, RigidModel
+from birdmb.studies.cycles import ModelFactory
+from birdmb.studies.relevance import ignored_values
 from birdmb.studies.sweeps import Finished, Study, Trimming, sweep
 from birdmb.studies.sweeps.verdicts import jump_lines, short, verdict_lines
 from birdmb.topology import Bird
@@ -35,7 +37,7 @@ def run(
     """Fill the store, with progress on standard error, and say what it holds."""
     kind = RigidModel if model == "rigid" else MultibodyModel
     bound = kind if steps_per_beat is None else partial(kind, steps_per_beat=steps_per_beat)
-    with SweepProgress(Console(stderr=True)) as progress:
+    with SweepProgress(Console(stderr=True), ignored_springs(bird, bound)) as progress:
         study = sweep(
             bird,
             variations,
@@ -49,11 +51,23 @@ def run(
     typer.echo(_summary(study))
 
 
-class SweepProgress:
-    """A bar with rate, failures and time left on a terminal; elsewhere a line for each point."""
+def ignored_springs(bird: Bird, model: ModelFactory) -> str:
+    """Which springs of the bird its model has not, as a sentence; empty if there are none."""
+    if not ignored_values(bird, model):
+        return ""
+    sprung = [joint.name for joint in bird.compliant_joints]
+    sprung += [feather.hinge_name for feather in bird.hinged_feathers]
+    return f"The rigid model ignores the springs of {', '.join(sprung)}." if sprung else ""
 
-    def __init__(self, console: Console) -> None:
-        self._console = console
+
+class SweepProgress:
+    """A bar with rate, failures and time left on a terminal; elsewhere a line for each point.
+
+    A note is written before the first of them.
+    """
+
+    def __init__(self, console: Console, note: str = "") -> None:
+        self._console, self._note = console, note
         self._began = time.monotonic()
         self._found_before = self._failures = 0
         self._bar = Progress(
@@ -79,12 +93,17 @@ class SweepProgress:
         """Show a finished point."""
         if point.outcome is None:
             self._found_before = point.done
+            if self._note:
+                self._line(self._note)
         else:
             self._failures += point.outcome.result is None
             if point.outcome.result is None or not self._console.is_terminal:
-                self._console.print(_line(point), highlight=False, markup=False, soft_wrap=True)
+                self._line(_line(point))
         told = self._told(point) if point.outcome else "starting the workers"
         self._bar.update(self._task, completed=point.done, total=point.total, told=told)
+
+    def _line(self, text: str) -> None:
+        self._console.print(text, highlight=False, markup=False, soft_wrap=True)
 
     def _told(self, point: Finished) -> str:
         computed = point.done - self._found_before

@@ -11,7 +11,8 @@ from rich.console import Console
 
 from birdmb.cli.files import prepare, write_whole
 from birdmb.cli.progress import Progress
-from birdmb.cli.sweep import SweepProgress
+from birdmb.cli.sweep import SweepProgress, ignored_springs
+from birdmb.models import RigidModel
 from birdmb.studies.tail import (
     SWEEP,
     PriceOfStability,
@@ -38,7 +39,7 @@ def run(bird: Bird, store: Path, *, every: int, workers: int | None, out: Path |
     if out is not None:
         prepare(out)
     console = Console(stderr=True)
-    with SweepProgress(console) as progress:
+    with SweepProgress(console, ignored_springs(bird, RigidModel)) as progress:
         study = tail_study(bird, store, every=every, workers=workers, on_point=progress.update)
     data = study.to_xarray(timings=True)
     found = data["status"] == "found"

@@ -14,6 +14,7 @@ from typing import Any
 from birdmb.models import MultibodyModel
 from birdmb.orbits.newton import SolverMethod
 from birdmb.studies.cycles import ModelFactory
+from birdmb.studies.relevance import check_relevant
 from birdmb.studies.sweeps.checks import check_processes, check_trimming
 from birdmb.studies.sweeps.dispatch import on_executor, on_processes
 from birdmb.studies.sweeps.grid import Grid, Place, Value, parent
@@ -87,12 +88,14 @@ def sweep(
         TopologyError: the bird has no value of that name. A value that is impossible is the failure
             of its points.
         SweepError: the store holds another study, or a worker process died.
-        ArgumentError: an impossible tolerance, number of segments or method.
+        ArgumentError: an impossible tolerance, number of segments, method or trim, or a value
+            that is varied or trimmed has no effect on the model.
     """
     grid = Grid.of(bird, vary)
     search = Search(tolerance, max_iterations, segments, method)
     if trim is not None:
         check_trimming(bird, grid, trim)
+    check_relevant(bird, {**grid.parameters, **(trim.parameters if trim else {})}, model)
     if executor is None:
         check_processes(bird, model, workers)
     with Store.opened(store, identity(bird, model, search, trim), grid) as opened:
