@@ -54,6 +54,7 @@ _UNDECIDED: dict[str, Any] = {
     "color": _VERDICTS["undecided"],
     "markerfacecolor": "none",
 }
+_BACKWARDS: dict[str, Any] = {"ls": "", "marker": "$<$", "color": "k", "markersize": 7}
 _JUMP: dict[str, Any] = {"color": "deeppink", "linewidth": 2.4}
 
 
@@ -157,6 +158,9 @@ def _draw_lines(axes: Axes, study: xr.Dataset, name: str) -> None:
     for kind, colour in _VERDICTS.items():
         shown = study["stability"].values == kind
         axes.plot(x[shown], y[shown], "o", color=colour, markersize=4.5)
+    backwards = study["flight"].values == "backwards"
+    if backwards.any():
+        axes.plot(x[backwards], y[backwards], **_BACKWARDS)
     for i in np.flatnonzero(jump):
         axes.axvline(0.5 * (x[i] + x[i + 1]), **_JUMP | {"linewidth": 1.2})
     if name == "largest_modulus":
@@ -194,6 +198,9 @@ def _draw_map(axes: Axes, study: xr.Dataset, name: str) -> None:
     j, i = (study["stability"].transpose(up, across).values == "undecided").nonzero()
     if i.size:
         axes.plot(x[i], y[j], **_UNDECIDED)
+    j, i = (study["flight"].transpose(up, across).values == "backwards").nonzero()
+    if i.size:
+        axes.plot(x[i], y[j], **_BACKWARDS)
     jumps = study["sheet_jump"].transpose(up, across, "along")
     _draw_jumps(axes, jumps, (left, right), (lower, upper))
     axes.set_xlim(left[0], right[-1])
@@ -257,6 +264,8 @@ def _legend(study: xr.Dataset) -> list[Any]:
         if (status == "failed").any():
             failed = "no limit cycle found"
             handles.append(Line2D([], [], ls="", marker="x", color="0.3", label=failed))
+    if (study["flight"].values == "backwards").any():
+        handles.append(Line2D([], [], label="flies backwards", **_BACKWARDS))
     if study["sheet_jump"].values.any():
         handles.append(Line2D([], [], label="neighbours on different flights", **_JUMP))
     return handles

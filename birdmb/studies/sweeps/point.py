@@ -183,6 +183,11 @@ def _answers(task: Task, cycle: FlightCycle, trimmed: Mapping[str, float]) -> di
     return {"sensitivity": found, "state_scale": cycle.state_scale.tolist()}
 
 
+def _forwards(cycle: FlightCycle) -> bool:
+    """Whether the bird makes its way nose first; searches also end on ones that fall tail first."""
+    return bool(cycle.mean_velocity[0] > 0.0 and math.cos(cycle.mean_pitch) > 0.0)
+
+
 def described(cycle: FlightCycle) -> dict[str, Any]:
     """What is kept of a limit cycle, fit for JSON: units as in `FlightCycle`, `None` for NaN."""
     model = cast("WingModel", cycle.model)
@@ -213,6 +218,7 @@ def described(cycle: FlightCycle) -> dict[str, Any]:
         "multiplier_error": cycle.multiplier_errors.tolist(),
         "monodromy": cycle.monodromy.tolist(),
         "stability": cycle.stability,
+        "flight": "forwards" if _forwards(cycle) else "backwards",
         "integrator": model.integration.method if isinstance(model, MultibodyModel) else "explicit",
         "warning": " ".join(validity.warnings),
     }

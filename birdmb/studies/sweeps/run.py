@@ -122,6 +122,7 @@ class _Filling:
         self._search, self._trimming = search, trimming
         self._grid, self._store, self._on_point = grid, store, on_point
         self._points = dict(store.contents.points)
+        self._nearest: dict[Place, Place | None] = {}
         self._followers: dict[Place | None, list[Place]] = {}
         for place in grid.places():
             if place not in self._points:
@@ -172,14 +173,27 @@ class _Filling:
         )
 
     def _guess(self, place: Place) -> Guess | None:
-        before = parent(place)
-        while before is not None:
-            result = self._points[before].result
-            if result is not None:
-                kept = (result[key] for key in ("x0", "monodromy", "trimmed"))
-                return Guess(place_text(before), *kept)
-            before = parent(before)
-        return None
+        before = self._nearest_flight(parent(place))
+        if before is None:
+            return None
+        result = self._points[before].result
+        assert result is not None
+        return Guess(place_text(before), result["x0"], result["monodromy"], result["trimmed"])
+
+    def _nearest_flight(self, place: Place | None) -> Place | None:
+        """The place, or the first of its predecessors that has a flight.
+
+        Kept for all places on the way, which would else grow with each point that fails.
+        """
+        failed = []
+        while place is not None and self._points[place].result is None:
+            if place in self._nearest:
+                place = self._nearest[place]
+                break
+            failed.append(place)
+            place = parent(place)
+        self._nearest |= dict.fromkeys(failed, place)
+        return place
 
     def _tell(self, values: Mapping[str, Value], outcome: Outcome | None) -> None:
         if self._on_point is not None:

@@ -92,8 +92,9 @@ class Study:
         `along` (the parameters' names).
         Where there is no cycle, or none yet, numbers are NaN and texts empty; states that only some
         points have are NaN at the others. `status` is "found", "failed" or "missing", `failure` the
-        reason, `warning` how a cycle leaves the model's validity, `integrator` explicit or
-        implicit, `start` the neighbour that the search started from. `sheet_jump` is true where
+        reason, `flight` "forwards" or "backwards", `warning` how a cycle leaves the model's
+        validity, `integrator` explicit or implicit, `multiplier_error` what the verdict counts,
+        `start` the neighbour that the search started from. `sheet_jump` is true where
         the step to the next larger value of the parameter `along` does not explain how the flights
         at both differ (`birdmb.studies.sweeps.jumps`). The same study gives the same dataset to the
         last bit, however it was computed; but for `seconds`, which `timings` adds.
@@ -155,6 +156,7 @@ class Study:
             "failure": {p: o.reason for p, o in self.outcomes.items()},
             "start": {p: o.start for p, o in self.outcomes.items()},
             "stability": {p: r["stability"] for p, r in found.items()},
+            "flight": {p: r["flight"] for p, r in found.items()},
             "warning": {p: r["warning"] for p, r in found.items()},
             "integrator": {p: r["integrator"] for p, r in found.items()},
         }

@@ -24,8 +24,10 @@ def verdict_lines(study: xr.Dataset) -> list[str]:
         if not shown.any():
             continue
         speed, climb = (study[name].values[shown] for name in ("mean_speed", "climb_rate"))
+        backwards = np.count_nonzero(study["flight"].values[shown] == "backwards")
         lines.append(
             f"{shown.sum()} {kind}: {_span(speed, '.4g')} m/s, climbing {_span(climb, '+.2g')} m/s"
+            f"{f', {backwards} of them backwards' if backwards else ''}"
         )
     return lines
 
