@@ -65,10 +65,21 @@ class FloquetResult:
     jacobian_method: JacobianMethod
 
     @property
+    def verdict_errors(self) -> FloatArray:
+        """Errors (n,) of the multipliers that the verdict counts: here `multiplier_errors`.
+
+        A subclass that knows the error of its model's integration adds that.
+        """
+        return self.multiplier_errors
+
+    @property
     def stability(self) -> Stability:
-        """Verdict of the non-trivial multipliers; "undecided" if error bars touch |Lambda| = 1."""
+        """Verdict of the non-trivial multipliers; "undecided" if error bars touch |Lambda| = 1.
+
+        The error bars are `verdict_errors`.
+        """
         keep = np.arange(len(self.multipliers)) != self.trivial_index
-        return verdict(self.multipliers[keep], self.multiplier_errors[keep])
+        return verdict(self.multipliers[keep], self.verdict_errors[keep])
 
     @property
     def exponents(self) -> ComplexArray:

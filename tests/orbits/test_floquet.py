@@ -1,3 +1,5 @@
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
 import scipy.linalg
@@ -8,6 +10,7 @@ from scipy.optimize import linear_sum_assignment
 
 from birdmb.orbits import (
     ArgumentError,
+    LimitCycle,
     NotClosedError,
     OdeModel,
     find_limit_cycle,
@@ -191,3 +194,16 @@ def test_an_open_orbit_is_refused():
 def test_wrong_arguments(options, words):
     with pytest.raises(ArgumentError, match=words):
         floquet(van_der_pol(1), [2.0, 0.0], **options)
+
+
+def test_the_verdict_counts_what_a_model_knows_of_its_integration():
+    @dataclass(frozen=True)
+    class Rough(LimitCycle):
+        @property
+        def verdict_errors(self):
+            return self.multiplier_errors + 0.2
+
+    model = OdeModel(lambda _t, x: -0.1 * x, ("x",), period=1.0)
+    assert find_limit_cycle(model, [0.1]).stability == "stable"
+    model.limit_cycle_type = Rough
+    assert find_limit_cycle(model, [0.1]).stability == "undecided"
