@@ -215,7 +215,7 @@ def described(cycle: FlightCycle) -> dict[str, Any]:
         "x0": dict(zip(cycle.state_names, cycle.x0.tolist(), strict=True)),
         "multiplier_real": cycle.multipliers.real.tolist(),
         "multiplier_imag": cycle.multipliers.imag.tolist(),
-        "multiplier_error": cycle.multiplier_errors.tolist(),
+        "multiplier_error": cycle.verdict_errors.tolist(),
         "monodromy": cycle.monodromy.tolist(),
         "stability": cycle.stability,
         "flight": "forwards" if _forwards(cycle) else "backwards",
