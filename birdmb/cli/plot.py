@@ -10,6 +10,7 @@ import typer
 
 from birdmb.cli.files import prepare, write_whole
 from birdmb.studies.sweeps import Study
+from birdmb.studies.sweeps.verdicts import jump_lines, verdict_lines
 from birdmb.topology import parse_assignment
 
 _DPI = 150
@@ -28,5 +29,7 @@ def run(store: Path, quantities: Sequence[str], at: Sequence[str], out: Path) ->
         save = partial(figure.savefig, dpi=_DPI, format="png")
         typer.echo(f"wrote {write_whole(out / name, save)}")
     dataset = study.to_xarray(timings=True)
+    for line in [*verdict_lines(dataset), *jump_lines(dataset)]:
+        typer.echo(line)
     save = partial(dataset.to_netcdf, engine="h5netcdf")
     typer.echo(f"wrote {write_whole(out / f'{store.stem}.nc', save)}")

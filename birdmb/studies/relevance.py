@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
 from itertools import chain, islice
@@ -16,7 +16,7 @@ from birdmb.topology import Bird
 from birdmb.topology.parts import BONES
 from birdmb.topology.unused import SPRING, unused_values
 
-# So many birds are looked at: one that uses a value is most often the first.
+# So many birds are looked at, before a value that none of them uses is refused.
 _LOOKED_AT = 200
 
 
@@ -32,14 +32,22 @@ def check_relevant(bird: Bird, vary: Mapping[str, Sequence[Any]], model: ModelFa
         ArgumentError: a value without effect.
     """
     ignored = ignored_values(bird, model)
-    unused = [unused_values(each) for each in _variations(bird, vary)]
     for name in vary:
-        reason = ignored.get(name) or (
-            unused[0][name] if unused and all(name in each for each in unused) else ""
-        )
+        if name in ignored:
+            raise _without_effect(name, f"{ignored[name]}; take the multibody model")
+    reasons = dict.fromkeys(vary, "")
+    for varied in _variations(bird, vary):
+        unused = unused_values(varied)
+        reasons = {name: unused[name] for name in reasons if name in unused}
+        if not reasons:
+            return
+    for name, reason in reasons.items():
         if reason:
-            hint = "; take the multibody model" if name in ignored else ""
-            raise ArgumentError(f"{name} cannot be varied, it has no effect: {reason}{hint}.")
+            raise _without_effect(name, reason)
+
+
+def _without_effect(name: str, reason: str) -> ArgumentError:
+    return ArgumentError(f"{name} cannot be varied, it has no effect: {reason}.")
 
 
 def ignored_values(bird: Bird, model: ModelFactory) -> dict[str, str]:
@@ -63,12 +71,10 @@ def ignored_values(bird: Bird, model: ModelFactory) -> dict[str, str]:
     return names
 
 
-def _variations(bird: Bird, vary: Mapping[str, Sequence[Any]]) -> list[Bird]:
+def _variations(bird: Bird, vary: Mapping[str, Sequence[Any]]) -> Iterator[Bird]:
     """Birds with the first values, and with each other value of one of them; the possible ones."""
     first = {name: values[0] for name, values in vary.items()}
     others = (first | {name: value} for name, values in vary.items() for value in values[1:])
-    birds = []
     for values in islice(chain([first], others), _LOOKED_AT):
         with suppress(TopologyError):  # the failure of its points
-            birds.append(bird.with_values(values))
-    return birds
+            yield bird.with_values(values)
