@@ -224,7 +224,7 @@ def branch(
     with reported(as_json=json):
         from birdmb.cli.birds import requested_bird  # noqa: PLC0415
 
-        bird = requested_bird(topology, assignments or [])
+        bird = requested_bird(topology, assignments or [], {parameter: start})
 
         from birdmb.cli.branch import Following, run  # noqa: PLC0415
 

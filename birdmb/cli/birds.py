@@ -1,18 +1,24 @@
 """The bird that a command line asks for."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 
 from birdmb.cli.outcome import InputError
 from birdmb.topology import Bird, load_bird, parse_assignment
+from birdmb.topology.unused import SPRING, unused_spring
 
 
-def requested_bird(topology: Path, assignments: Sequence[str]) -> Bird:
-    """The bird of a topology file with the values of `NAME=VALUE` assignments.
+def requested_bird(
+    topology: Path, assignments: Sequence[str], varied: Mapping[str, object] | None = None
+) -> Bird:
+    """The bird of a topology file with the values of `NAME=VALUE` assignments, in any order.
+
+    `varied` are the first values, by dotted name, of what the command varies. A joint whose damping
+    is assigned and whose stiffness is varied is whole only with both: it gets them together.
 
     Raises:
         TopologyError: the file, a name or a value is wrong.
-        InputError: a name is assigned twice.
+        InputError: a name is assigned twice, or a spring or damper to a joint without use for it.
     """
     bird = load_bird(topology)
     values: dict[str, object] = {}
@@ -20,4 +26,25 @@ def requested_bird(topology: Path, assignments: Sequence[str]) -> Bird:
         if name in values:
             raise InputError(f"--set gives {name} twice; keep one of the two.")
         values[name] = value
-    return bird.with_values(values) if values else bird
+    if not values:
+        return bird
+    completed = {**_completing(bird, values, varied or {}), **values}
+    found = bird.with_values(completed)
+    for joint in found.joints:
+        reason = unused_spring(joint)
+        unused = [name for key in SPRING if (name := f"{joint.name}.{key}") in values]
+        if reason and unused and f"{joint.name}.mode" not in (varied or {}):
+            raise InputError(f"--set {unused[0]} has no effect: {reason}.")
+    return found
+
+
+def _completing(
+    bird: Bird, assigned: Collection[str], varied: Mapping[str, object]
+) -> dict[str, object]:
+    """What is varied of the springs and dampers that are also assigned to."""
+    found: dict[str, object] = {}
+    for joint in bird.joints:
+        names = [f"{joint.name}.{key}" for key in SPRING]
+        if any(name in assigned for name in names):
+            found |= {name: varied[name] for name in names if name in varied}
+    return found

@@ -9,6 +9,7 @@ import typer
 
 from birdmb.cli.files import prepare, reject_overwriting, write_dataset, write_figure
 from birdmb.studies.sweeps import Study
+from birdmb.studies.sweeps.verdicts import jump_lines, verdict_lines
 from birdmb.topology import parse_assignment
 
 
@@ -26,4 +27,6 @@ def run(store: Path, quantities: Sequence[str], at: Sequence[str], out: Path) ->
     for name, figure in figures.items():
         typer.echo(f"wrote {write_figure(out / name, figure)}")
     dataset = study.to_xarray(timings=True)
+    for line in [*verdict_lines(dataset), *jump_lines(dataset)]:
+        typer.echo(line)
     typer.echo(f"wrote {write_dataset(out / data_file, dataset)}")

@@ -78,8 +78,9 @@ def sweep(
         from birdmb.cli.birds import requested_bird  # noqa: PLC0415
         from birdmb.cli.variations import requested_trim, requested_variations  # noqa: PLC0415
 
-        bird = requested_bird(topology, assignments or [])
-        variations = requested_variations(bird, vary)
+        variations = requested_variations(vary)
+        first = {name: values[0] for name, values in variations.items()}
+        bird = requested_bird(topology, assignments or [], first)
         trimming = requested_trim(bird, trim or [], climb_rate, speed)
 
         from birdmb.cli.sweep import run  # noqa: PLC0415 - not before all of it is sound

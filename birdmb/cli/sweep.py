@@ -14,7 +14,10 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, SpinnerColumn, TextColumn
 
 from birdmb.models import MultibodyModel, RigidModel
+from birdmb.studies.cycles import ModelFactory
+from birdmb.studies.relevance import ignored_values
 from birdmb.studies.sweeps import Finished, Study, Trimming, sweep
+from birdmb.studies.sweeps.verdicts import jump_lines, short, verdict_lines
 from birdmb.topology import Bird
 
 _LISTED = 5
@@ -34,7 +37,7 @@ def run(
     """Fill the store, with progress on standard error, and say what it holds."""
     kind = RigidModel if model == "rigid" else MultibodyModel
     bound = kind if steps_per_beat is None else partial(kind, steps_per_beat=steps_per_beat)
-    with SweepProgress(Console(stderr=True)) as progress:
+    with SweepProgress(Console(stderr=True), ignored_springs(bird, bound)) as progress:
         study = sweep(
             bird,
             variations,
@@ -48,11 +51,23 @@ def run(
     typer.echo(_summary(study))
 
 
-class SweepProgress:
-    """A bar with rate, failures and time left on a terminal; elsewhere a line for each point."""
+def ignored_springs(bird: Bird, model: ModelFactory) -> str:
+    """Which springs of the bird its model has not, as a sentence; empty if there are none."""
+    if not ignored_values(bird, model):
+        return ""
+    sprung = [joint.name for joint in bird.compliant_joints]
+    sprung += [feather.hinge_name for feather in bird.hinged_feathers]
+    return f"The rigid model ignores the springs of {', '.join(sprung)}." if sprung else ""
 
-    def __init__(self, console: Console) -> None:
-        self._console = console
+
+class SweepProgress:
+    """A bar with rate, failures and time left on a terminal; elsewhere a line for each point.
+
+    A note is written before the first of them.
+    """
+
+    def __init__(self, console: Console, note: str = "") -> None:
+        self._console, self._note = console, note
         self._began = time.monotonic()
         self._found_before = self._failures = 0
         self._bar = Progress(
@@ -78,12 +93,17 @@ class SweepProgress:
         """Show a finished point."""
         if point.outcome is None:
             self._found_before = point.done
+            if self._note:
+                self._line(self._note)
         else:
             self._failures += point.outcome.result is None
             if point.outcome.result is None or not self._console.is_terminal:
-                self._console.print(_line(point), highlight=False, markup=False, soft_wrap=True)
+                self._line(_line(point))
         told = self._told(point) if point.outcome else "starting the workers"
         self._bar.update(self._task, completed=point.done, total=point.total, told=told)
+
+    def _line(self, text: str) -> None:
+        self._console.print(text, highlight=False, markup=False, soft_wrap=True)
 
     def _told(self, point: Finished) -> str:
         computed = point.done - self._found_before
@@ -98,32 +118,32 @@ class SweepProgress:
 def _line(point: Finished) -> str:
     outcome = point.outcome
     assert outcome is not None
-    values = " ".join(f"{name}={_short(value)}" for name, value in point.values.items())
+    values = " ".join(f"{name}={short(value)}" for name, value in point.values.items())
     return f"{point.done}/{point.total}  {values}  {_became(outcome)}  {outcome.seconds:.2f} s"
 
 
 def _became(outcome: Any) -> str:
     if outcome.result is None:
         return f"failed: {outcome.reason}"
-    real, imaginary = (outcome.result[f"multiplier_{part}"][0] for part in ("real", "imag"))
-    return f"{outcome.result['stability']}, |Λ|max {np.hypot(real, imaginary):.4f}"
-
-
-def _short(value: object) -> str:
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+    result = outcome.result
+    real, imaginary = (result[f"multiplier_{part}"][0] for part in ("real", "imag"))
+    return (
+        f"{result['stability']}, |Λ|max {np.hypot(real, imaginary):.4f}, "
+        f"{result['mean_speed']:.2f} m/s, climb {result['climb_rate']:+.2f} m/s"
+        f"{', backwards' if result['flight'] == 'backwards' else ''}"
+    )
 
 
 def _summary(study: Study) -> str:
-    stabilities = [o.result["stability"] for o in study.outcomes.values() if o.result is not None]
-    counted = [f"{stabilities.count(kind)} {kind}" for kind in sorted(set(stabilities))]
-    failures = study.failures
+    data, failures = study.to_xarray(), study.failures
+    found = len(study.outcomes) - len(failures)
     lines = [
-        f"{study.path}: {study.total} points, {len(stabilities)} with a limit cycle"
-        f"{' (' + ', '.join(counted) + ')' if counted else ''}, {len(failures)} without."
+        f"{study.path}: {study.total} points, {found} with a limit cycle, {len(failures)} without."
     ]
+    lines += [f"  {line}" for line in verdict_lines(data)]
     for values, reason in failures[:_LISTED]:
-        listed = ", ".join(f"{name} = {_short(value)}" for name, value in values.items())
+        listed = ", ".join(f"{name} = {short(value)}" for name, value in values.items())
         lines.append(f"  {listed}: {reason}")
     if len(failures) > _LISTED:
         lines.append(f"  ... and {len(failures) - _LISTED} more: Study.open(...).failures")
-    return "\n".join(lines)
+    return "\n".join(lines + jump_lines(data))

@@ -10,7 +10,9 @@ from rich.console import Console
 
 from birdmb.cli.files import prepare, reject_overwriting, write_dataset, write_figure
 from birdmb.cli.progress import Progress
-from birdmb.cli.sweep import SweepProgress
+from birdmb.cli.sweep import SweepProgress, ignored_springs
+from birdmb.models import RigidModel
+from birdmb.studies.sweeps.verdicts import jump_lines, verdict_lines
 from birdmb.studies.tail import (
     SWEEP,
     PriceOfStability,
@@ -37,18 +39,21 @@ def run(bird: Bird, store: Path, *, every: int, workers: int | None, out: Path |
         prepare(out)
         reject_overwriting(store, out, [f"{store.stem}.nc"])
     console = Console(stderr=True)
-    with SweepProgress(console) as progress:
+    with SweepProgress(console, ignored_springs(bird, RigidModel)) as progress:
         study = tail_study(bird, store, every=every, workers=workers, on_point=progress.update)
     data = study.to_xarray(timings=True)
     found = data["status"] == "found"
     allowed = within_rules(data)
-    stable = allowed & (data["stability"] == "stable")
+    stable, undecided = (allowed & (data["stability"] == kind) for kind in ("stable", "undecided"))
     seconds = float(data["seconds"].sum())
     typer.echo(
         f"{store}: {study.total} gaits and openings, {int(found.sum())} of them fly level, "
-        f"{int(allowed.sum())} within the rules, {int(stable.sum())} of these stable; "
-        f"{study.total / seconds:.2f} flights per second and core."
+        f"{int(allowed.sum())} within the rules, {int(stable.sum())} of these stable, "
+        f"{int(undecided.sum())} undecided; {study.total / seconds:.2f} flights per second and "
+        f"core."
     )
+    for line in [*verdict_lines(data), *jump_lines(data)]:
+        typer.echo(line)
     beyond = stable & (data["largest_tail_angle"] > LARGEST_TAIL_ANGLE)
     climb, error = abs(data["climb_rate"]), data["integration_error"].where(allowed)
     typer.echo(

@@ -7,25 +7,25 @@ from typing import Any
 import numpy as np
 
 from birdmb.cli.outcome import InputError
+from birdmb.studies.sweeps.grid import MOST_POINTS
 from birdmb.studies.sweeps.settings import Trimming
 from birdmb.topology import Bird, parse_assignment
 
 _RANGE_PARTS = 3
 
 
-def requested_variations(bird: Bird, texts: Sequence[str]) -> dict[str, list[Any]]:
+def requested_variations(texts: Sequence[str]) -> dict[str, list[Any]]:
     """Values by dotted name of `NAME=FIRST:LAST:COUNT` and `NAME=VALUE,VALUE,...`.
 
     Raises:
-        TopologyError: the bird has no value of that name, or name, `=` or values are missing.
-        InputError: a range is none, or a name is given twice.
+        TopologyError: name, `=` or values are missing.
+        InputError: a range is none or too long, or a name is given twice.
     """
     variations: dict[str, list[Any]] = {}
     for text in texts:
         name, _, listed = text.partition("=")
         name = name.strip()
         values = _range(text, listed) if ":" in listed else _list(name, listed)
-        bird.value(name)
         if name in variations:
             raise InputError(f"--vary gives {name} twice; keep one of the two.")
         variations[name] = values
@@ -56,15 +56,17 @@ def requested_bounds(
         TopologyError: the bird has no value of that name.
         InputError: bounds are none, or there are not as many parameters as targets.
     """
-    bounds = {}
+    bounds: dict[str, tuple[float, float]] = {}
     for text in texts:
         name, _, listed = text.partition("=")
         bird.value(name.strip())
+        if name.strip() in bounds:
+            raise InputError(f"{option} gives {name.strip()} twice; keep one of the two.")
         try:
             low, high = map(float, listed.split(":"))
         except ValueError:
             low = high = math.nan
-        if not low < high:
+        if not -math.inf < low < high < math.inf:
             raise InputError(
                 f'{option} "{text}" must read NAME=LOWEST:HIGHEST, as in '
                 "forearm.roll.offset_deg=-12:12."
@@ -92,4 +94,6 @@ def _range(text: str, listed: str) -> list[Any]:
             f'--vary "{text}" must read NAME=FIRST:LAST:COUNT, with two values or more, as in '
             "shoulder.flap.stiffness=5:60:24."
         )
+    if count > MOST_POINTS:
+        raise InputError(f'--vary "{text}": give {MOST_POINTS} values or fewer.')
     return list(np.linspace(first, last, count).tolist())

@@ -11,6 +11,7 @@ import xarray as xr
 from birdmb.errors import BirdmbError
 from birdmb.models import FlightCycle, RigidModel
 from birdmb.studies.cycles import ModelFactory, WarmCycles
+from birdmb.studies.relevance import check_relevant
 from birdmb.studies.validity import assess_validity
 from birdmb.topology import Bird
 
@@ -46,8 +47,11 @@ def parameter_study(
 
     Raises:
         TopologyError: an unknown name. A value that is impossible only fails by itself.
+        ArgumentError: the value has no effect on the model.
     """
     bird.value(name)
+    if len(values):
+        check_relevant(bird, {name: values}, model)
     find = WarmCycles(bird, model)
     cycles: list[FlightCycle | None] = []
     failures = []

@@ -108,7 +108,7 @@ class PriceOfStability:
     Attributes:
         slowest, fastest: the range, m/s.
         cheapest: least cost of transport within the rules.
-        cheapest_stable: the same of the flights with |Lambda|max < 1; NaN if there are none.
+        cheapest_stable: the same of those whose verdict is stable; NaN if there are none.
         opening: of the tail at the cheapest stable flight, degrees.
     """
 
@@ -128,7 +128,7 @@ def price_of_stability(data: xr.Dataset, width: float = 1.0) -> tuple[PriceOfSta
     cost, speed = kept["cost_of_transport"], kept["mean_speed"].values.ravel()
     openings = data[OPENING].broadcast_like(cost).transpose(*cost.dims).values.ravel()
     costs = cost.values.ravel()
-    stable = (kept["largest_modulus"] < 1.0).values.ravel()
+    stable = (kept["stability"] == "stable").values.ravel()
     rows = []
     for place in np.unique(np.floor(speed[np.isfinite(speed)] / width)):
         here = np.floor(speed / width) == place

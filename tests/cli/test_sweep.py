@@ -1,6 +1,7 @@
 """`birdmb sweep` and `birdmb plot`, as processes that are killed and interrupted, and in here."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -11,7 +12,7 @@ import pytest
 import xarray as xr
 from rich.console import Console
 
-from birdmb.cli.sweep import SweepProgress
+from birdmb.cli.sweep import SweepProgress, _line
 from birdmb.studies.sweeps import Finished, Study
 from birdmb.studies.sweeps.point import Outcome
 
@@ -84,7 +85,11 @@ def test_killed_and_interrupted_sweeps_keep_what_they_told_and_leave_no_workers(
         output, errors = last.communicate(timeout=HANGS)
     assert last.returncode == 0, errors
     assert len(errors.splitlines()) == 30 - len(more)
-    assert output == (f"{store}: 30 points, 30 with a limit cycle (30 unstable), 0 without.\n")
+    counted, verdict = output.splitlines()
+    assert counted == f"{store}: 30 points, 30 with a limit cycle, 0 without."
+    assert re.fullmatch(
+        r"  30 unstable: 1\d\.\d+ to \d+\.\d+ m/s, climbing -\S+ to \S+ m/s", verdict
+    )
 
     result = run("plot", str(store), "--out", str(tmp_path / "figures"))
     assert result.exit_code == 0, result.stderr
@@ -137,7 +142,17 @@ def test_terminal_shows_rate_failures_and_time_left():
     console = Console(force_terminal=True, width=160, record=True, file=open(os.devnull, "w"))  # noqa: PTH123, SIM115
     failed = Outcome(None, "too heavy", "cold", 0.1)
     found = Outcome(
-        {"stability": "stable", "multiplier_real": [0.5], "multiplier_imag": [0.0]}, "", "cold", 0.1
+        {
+            "stability": "stable",
+            "multiplier_real": [0.5],
+            "multiplier_imag": [0.0],
+            "mean_speed": 13.8,
+            "climb_rate": -0.25,
+            "flight": "forwards",
+        },
+        "",
+        "cold",
+        0.1,
     )
     with console.file, SweepProgress(console) as progress:
         progress.update(Finished({}, None, 10, 40))
@@ -146,6 +161,8 @@ def test_terminal_shows_rate_failures_and_time_left():
     shown = console.export_text()
     assert "11/40  body.mass=99  failed: too heavy" in shown
     assert "12/40  body.mass" not in shown
+    told = _line(Finished({"body.mass": 1.0}, found, 12, 40))
+    assert told == "12/40  body.mass=1  stable, |Λ|max 0.5000, 13.80 m/s, climb -0.25 m/s  0.10 s"
     last = shown.splitlines()[-1]
     assert "12/40" in last
     assert "points/s, 1 failed, 0:00:0" in last

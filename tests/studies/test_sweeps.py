@@ -1,16 +1,23 @@
 """Sweeps: one set of bits whatever computes them, stores that refuse, resume and grow, datasets."""
 
+import re
 import sqlite3
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 import pytest
 import xarray as xr
+from threadpoolctl import threadpool_info
 
 import birdmb
-from birdmb.studies.sweeps import Study, SweepError, figures, sweep
+from birdmb.orbits import ArgumentError
+from birdmb.studies.sweeps import Study, SweepError, Trimming, figures, sweep
 from birdmb.studies.sweeps.grid import Grid, parent
+from birdmb.studies.sweeps.point import Outcome, _one_thread, described
+from birdmb.studies.sweeps.run import _Filling
+from birdmb.studies.sweeps.verdicts import verdict_lines
 
 from .sweeping import AMPLITUDE, GRID, IMPOSSIBLE, MASS, QUICK, Inline, coarse_bird
 
@@ -45,6 +52,21 @@ def test_points_are_limit_cycles(inline):
         assert at.climb_rate == pytest.approx(cycle.mean_climb_rate, abs=1e-7)
         assert at.residual < 1e-7
         assert at.stability == cycle.stability
+
+
+def test_verdicts_count_the_error_bars(inline):
+    values = {AMPLITUDE: 42.0, MASS: 1.1}
+    cycle = birdmb.find_limit_cycle(QUICK(coarse_bird().with_values(values)))
+    unsure = replace(cycle, multiplier_errors=np.abs(cycle.multipliers))
+    kept = described(unsure)
+    assert (described(cycle)["stability"], kept["stability"]) == ("unstable", "undecided")
+    assert kept["multiplier_error"] == unsure.verdict_errors.tolist()
+    data = inline.to_xarray(timings=True)
+    data["stability"] = data.stability.astype("U9")
+    data["stability"].loc[values] = "undecided"
+    assert [line.split(":")[0] for line in verdict_lines(data)] == ["17 unstable", "1 undecided"]
+    texts = [text.get_text() for text in figures.plot_study(data, "power", {}).legends[0].texts]
+    assert "undecided" in texts
 
 
 def test_failing_points_are_outcomes_with_a_reason(inline):
@@ -94,7 +116,7 @@ def test_compliant_birds_have_the_same_bits_here_and_in_two_processes(ibis_compl
 
 
 def test_warm_points_need_few_flows(ibis_compliant, tmp_path, monkeypatch):
-    """What a point costs: about seven steps, 12 flows for the Jacobian, 7 for its errors."""
+    """About seven steps, 12 flows for the Jacobian, 7 for its errors, 1 for each parameter."""
     bird = ibis_compliant.with_values({"wing.discretisation.elements": 4})
     counts, flow = [], birdmb.MultibodyModel.flow
 
@@ -117,7 +139,7 @@ def test_warm_points_need_few_flows(ibis_compliant, tmp_path, monkeypatch):
     data = study.to_xarray()
     assert (data.status == "found").all()
     # Two flows are those of the error of the integration.
-    assert max(counts[1:4]) <= 1 + 8 + 12 + 7 + 2
+    assert max(counts[1:4]) <= 1 + 8 + 12 + 7 + 2 + 1
     for place in range(1, 4):
         model = partial(birdmb.MultibodyModel, steps_per_beat=60)(
             bird.with_joint("shoulder.flap", stiffness=float(data[f"{FLAP}.stiffness"][place]))
@@ -158,6 +180,35 @@ def test_values_may_be_appended(inline, tmp_path):
     grown = sweep(coarse_bird(), GRID, **options, on_point=computed.append)
     assert len(computed) == 1 + 24 - 10
     assert grown.to_xarray().identical(inline.to_xarray())
+
+
+def test_long_grids_are_no_square_of_work():
+    """Which would take hours."""
+    grid = Grid.of(coarse_bird(), {MASS: np.linspace(1.0, 2.0, 300_000)})
+    assert grid.size == 300_000
+
+
+def test_points_after_many_that_fail_are_found_their_neighbour_at_once():
+    class Failing(Executor):
+        def submit(self, _function, task):
+            future = Future()
+            found = task.values[MASS] == 1.0
+            result = {"x0": {}, "monodromy": [], "trimmed": {}} if found else None
+            future.set_result(Outcome(result, "none", "cold", 0.0))
+            starts.append(task.guess and task.guess.place)
+            return future
+
+    class Nowhere:
+        class contents:  # noqa: N801
+            points = {}  # noqa: RUF012
+
+        def add(self, *_):
+            pass
+
+    starts = []
+    grid = Grid.of(coarse_bird(), {MASS: np.linspace(1.0, 2.0, 20_000)})
+    _Filling(coarse_bird(), QUICK, None, None, grid, Nowhere(), None).run(Failing(), None)
+    assert starts == [None] + ["[0]"] * 19_999
 
 
 def test_parents_are_near_known_before_and_independent_of_the_size():
@@ -231,6 +282,53 @@ def test_two_sweeps_do_not_fill_one_store(tmp_path):
     assert len(Study.open(store).outcomes) == 4
 
 
+class _Unsendable:
+    def __repr__(self):
+        return "calm"
+
+    def __reduce__(self):
+        raise TypeError("stays here")
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"parameters": {}},
+        {"parameters": {MASS: (2.0, 1.0)}},
+        {"parameters": {MASS: (1.0, float("inf"))}},
+        {"parameters": {MASS: (1.0, 2.0)}, "climb_rate": float("nan")},
+        {"parameters": {MASS: (1.0, 2.0)}, "speed": 10.0},
+        *(
+            {"parameters": {MASS: (1.0, 2.0), AMPLITUDE: (20.0, 50.0)}, "speed": speed}
+            for speed in (0.0, -1.0, float("nan"), float("inf"))
+        ),
+        {
+            "parameters": {MASS: (1.0, 2.0), AMPLITUDE: (20.0, 50.0)},
+            "speed": 10.0,
+            "climb_rate": -11.0,
+        },
+        {"parameters": {MASS: (1.0, 2.0)}, "tolerance": 0.0},
+    ],
+)
+def test_trims_that_no_flight_has_are_told_before_the_points(options):
+    with pytest.raises(ArgumentError):
+        Trimming(**options)
+
+
+def test_threads_lift_the_limit_on_linear_algebra_once_the_last_has_ended():
+    """Else a point that ends would give its threads back to one that goes on."""
+
+    def threads():
+        return [each["num_threads"] for each in threadpool_info() if each["user_api"] == "blas"]
+
+    before = threads()
+    with _one_thread():
+        with _one_thread():
+            assert set(threads()) <= {1}
+        assert set(threads()) <= {1}
+    assert threads() == before
+
+
 def test_what_cannot_be_meant_is_said_at_once(tmp_path):
     store = tmp_path / "study.db"
     assert "at least one parameter" in refusal(store, grid={})
@@ -240,6 +338,16 @@ def test_what_cannot_be_meant_is_said_at_once(tmp_path):
     assert "<lambda> is not" in refusal(
         store, model=lambda bird: birdmb.RigidModel(bird, steps_per_beat=30)
     )
+    assert "options that are the same in every run" in refusal(
+        store, model=partial(birdmb.RigidModel, gust=lambda _: (0.0, 0.0))
+    )
+    for workers in (0, -1, 1_000_000):
+        assert f"{workers} workers are asked for" in refusal(store, executor=None, workers=workers)
+    assert "cannot be sent to other processes" in refusal(
+        store, executor=None, model=partial(birdmb.RigidModel, gust=_Unsendable())
+    )
+    trim = Trimming({MASS: (1.0, 2.0)})
+    assert "body.mass cannot be both varied and trimmed" in refusal(store, trim=trim)
     with pytest.raises(birdmb.TopologyError, match="nearest"):
         sweep(coarse_bird(), {"body.mas": [1.0]}, store=store)
     assert not store.exists()
@@ -293,13 +401,16 @@ def test_stored_bird_varies_like_the_one_swept(inline):
 
 def test_maps_show_failures_and_quantities(inline):
     figure = inline.plot()
-    assert [axes.get_ylabel() for axes in figure.axes[4:]] == [
+    assert [axes.get_ylabel() for axes in figure.axes[6:]] == [
         "|Λ|max",
+        "mean speed (m/s)",
+        "climb rate (m/s)",
         "time constant (s)",
         "wing power (W)",
-        "climb rate (m/s)",
+        "cost of transport",
     ]
-    assert [len(axes.patches) for axes in figure.axes[:4]] == [6, 6, 6, 6]
+    assert [len(axes.patches) for axes in figure.axes[:6]] == [6] * 6
+    assert re.search(r"18 unstable: \S+ to \S+ m/s, climbing \S+ to \S+ m/s", figure.get_suptitle())
     single = inline.plot("mean_speed")
     assert single.axes[0].get_xlabel() == "shoulder.flap.amplitude (°)"
     with pytest.raises(SweepError, match=r"No quantity is called speed; there are .*mean_speed"):
@@ -338,4 +449,4 @@ def test_more_than_two_parameters_must_be_fixed_for_a_picture(tmp_path):
     study = sweep(coarse_bird(), grid, store=tmp_path / "s.db", executor=Inline(), model=QUICK)
     with pytest.raises(SweepError, match="fix all but two"):
         study.plot()
-    assert len(study.plot(at={"gait.frequency": 4.1}).axes) == 8
+    assert len(study.plot(at={"gait.frequency": 4.1}).axes) == 12

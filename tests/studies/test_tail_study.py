@@ -94,7 +94,7 @@ def test_price_of_stability():
     grid = {
         "cost_of_transport": [[1.0, 1.1], [2.0, 0.1]],
         "mean_speed": [[10.2, 10.9], [11.5, 11.6]],
-        "largest_modulus": [[1.2, 0.9], [1.1, 0.9]],
+        "stability": [["unstable", "stable"], ["undecided", "stable"]],
         "mean_pitch": [[0.0, 0.0], [0.0, 0.5]],  # rad; the last one is excluded
         ROLL: [[0.0, 0.0], [0.0, 0.0]],
     }

@@ -16,9 +16,17 @@ from matplotlib.patches import Patch, Rectangle
 from birdmb.figures.style import LINE
 from birdmb.orbits.plots import STABLE_COLOUR, UNSTABLE_COLOUR
 from birdmb.studies.sweeps.errors import SweepError
+from birdmb.studies.sweeps.verdicts import verdict_lines
 from birdmb.text import in_figure
 
-OVERVIEW = ("largest_modulus", "time_constant", "power", "climb_rate")
+OVERVIEW = (
+    "largest_modulus",
+    "mean_speed",
+    "climb_rate",
+    "time_constant",
+    "power",
+    "cost_of_transport",
+)
 _LABELS = {
     "largest_modulus": "|Λ|max",
     "time_constant": "time constant (s)",
@@ -40,6 +48,15 @@ _TURNS = {
 _DECADE = 10.0  # a wider range of time constants is drawn on a logarithmic scale
 _FAILED: dict[str, Any] = {"facecolor": "0.9", "edgecolor": "0.5", "hatch": "////", "linewidth": 0}
 _BEYOND: dict[str, Any] = {"ls": "", "marker": ".", "color": "k", "markersize": 4}
+_VERDICTS = {"stable": STABLE_COLOUR, "unstable": UNSTABLE_COLOUR, "undecided": "goldenrod"}
+_UNDECIDED: dict[str, Any] = {
+    "ls": "",
+    "marker": "o",
+    "color": _VERDICTS["undecided"],
+    "markerfacecolor": "none",
+}
+_BACKWARDS: dict[str, Any] = {"ls": "", "marker": "$<$", "color": "k", "markersize": 7}
+_JUMP: dict[str, Any] = {"color": "deeppink", "linewidth": 2.4}
 
 
 def plot_study(study: xr.Dataset, quantity: str | None, at: Mapping[str, Any]) -> Figure:
@@ -55,16 +72,17 @@ def plot_study(study: xr.Dataset, quantity: str | None, at: Mapping[str, Any]) -
             raise SweepError(
                 f"No quantity is called {name}; there are {', '.join(map(str, known))}."
             )
-    rows, two = (1 if len(quantities) == 1 else 2), len(plane["power"].dims) == 2
-    figure = Figure(figsize=(5.4 * rows, 4.0 * rows), layout="constrained")
-    panels = figure.subplots(rows, rows, squeeze=False, sharex=True, sharey=two)
+    (rows, columns), two = (1, 1) if quantity else (2, 3), len(plane["power"].dims) == 2
+    figure = Figure(figsize=(5.4 * columns, 4.2 * rows), layout="constrained")
+    panels = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=two)
     for axes, name in zip(panels.ravel(), quantities, strict=True):
         (_draw_map if two else _draw_lines)(axes, plane, name)
     for axes in panels[:-1].ravel():
         axes.set_xlabel("")
     for axes in panels[:, 1:].ravel() if two else ():
         axes.set_ylabel("")
-    figure.suptitle("\n".join([title, *fixed]), fontsize="medium")
+    caption = [title, *fixed, *verdict_lines(plane)]
+    figure.suptitle("\n".join(caption), fontsize="medium")
     handles = _legend(plane)
     if handles:
         figure.legend(
@@ -134,10 +152,19 @@ def _quantity_label(study: xr.Dataset, name: str) -> str:
 def _draw_lines(axes: Axes, study: xr.Dataset, name: str) -> None:
     (parameter,) = study["power"].dims
     x, y = _places(axes, "x", study[parameter]), study[name].values
-    unstable = study["largest_modulus"].values > 1
-    axes.plot(x, y, "-", color=LINE if name != "largest_modulus" else "0.6", lw=1.2, zorder=1)
-    for shown, colour in ((unstable, UNSTABLE_COLOUR), (~unstable, STABLE_COLOUR)):
+    jump = study["sheet_jump"].sel(along=parameter).values
+    # Where a sheet ends the line does.
+    line_x, line_y = (np.insert(a, np.flatnonzero(jump) + 1, np.nan) for a in (x, y))
+    colour = LINE if name != "largest_modulus" else "0.6"
+    axes.plot(line_x, line_y, "-", color=colour, lw=1.2, zorder=1)
+    for kind, colour in _VERDICTS.items():
+        shown = study["stability"].values == kind
         axes.plot(x[shown], y[shown], "o", color=colour, markersize=4.5)
+    backwards = study["flight"].values == "backwards"
+    if backwards.any():
+        axes.plot(x[backwards], y[backwards], **_BACKWARDS)
+    for i in np.flatnonzero(jump):
+        axes.axvline(0.5 * (x[i] + x[i + 1]), **_JUMP | {"linewidth": 1.2})
     if name == "largest_modulus":
         axes.axhline(1, color="k", lw=1)
     if name == "climb_rate":
@@ -170,8 +197,31 @@ def _draw_map(axes: Axes, study: xr.Dataset, name: str) -> None:
         axes.add_patch(Rectangle(corner, right[i] - left[i], upper[j] - lower[j], **_FAILED))
     j, i = (study["warning"].transpose(up, across).values != "").nonzero()
     axes.plot(x[i], y[j], **_BEYOND)
+    j, i = (study["stability"].transpose(up, across).values == "undecided").nonzero()
+    if i.size:
+        axes.plot(x[i], y[j], **_UNDECIDED)
+    j, i = (study["flight"].transpose(up, across).values == "backwards").nonzero()
+    if i.size:
+        axes.plot(x[i], y[j], **_BACKWARDS)
+    jumps = study["sheet_jump"].transpose(up, across, "along")
+    _draw_jumps(axes, jumps, (left, right), (lower, upper))
     axes.set_xlim(left[0], right[-1])
     axes.set_ylim(lower[0], upper[-1])
+
+
+def _draw_jumps(
+    axes: Axes,
+    jumps: xr.DataArray,
+    across: tuple[np.ndarray, np.ndarray],
+    up: tuple[np.ndarray, np.ndarray],
+) -> None:
+    """Draw a line between the cells of neighbours that lie on different sheets."""
+    (left, right), (lower, upper) = across, up
+    of_rows, of_columns, _ = map(str, jumps.dims)
+    for j, i in np.argwhere(jumps.sel(along=of_columns).values):
+        axes.plot([right[i], right[i]], [lower[j], upper[j]], **_JUMP)
+    for j, i in np.argwhere(jumps.sel(along=of_rows).values):
+        axes.plot([left[i], right[i]], [upper[j], upper[j]], **_JUMP)
 
 
 def _edges(centres: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -198,22 +248,26 @@ def _colours(name: str, values: np.ndarray) -> tuple[Normalize, str]:
 def _legend(study: xr.Dataset) -> list[Any]:
     handles: list[Any] = []
     modulus, status = study["largest_modulus"].values, study["status"].values
+    verdicts = study["stability"].values
     if len(study["power"].dims) == 2:
         if np.nanmin(modulus, initial=np.inf) < 1 < np.nanmax(modulus, initial=-np.inf):
-            handles.append(
-                Line2D([], [], color="k", lw=1.6, label="stability boundary, |Λ|max = 1")
-            )
+            boundary = "stability boundary, |Λ|max = 1"
+            handles.append(Line2D([], [], color="k", lw=1.6, label=boundary))
+        if (verdicts == "undecided").any():
+            handles.append(Line2D([], [], label="undecided", **_UNDECIDED))
         if (status == "failed").any():
             handles.append(Patch(label="no limit cycle found", **_FAILED))
         if (study["warning"].values != "").any():
             handles.append(Line2D([], [], label="beyond the model's validity", **_BEYOND))
-        return handles
-    for colour, shown, label in (
-        (STABLE_COLOUR, modulus <= 1, "stable"),
-        (UNSTABLE_COLOUR, modulus > 1, "unstable"),
-        ("0.3", status == "failed", "no limit cycle found"),
-    ):
-        if shown.any():
-            marker = "x" if colour == "0.3" else "o"
-            handles.append(Line2D([], [], ls="", marker=marker, color=colour, label=label))
+    else:
+        for kind, colour in _VERDICTS.items():
+            if (verdicts == kind).any():
+                handles.append(Line2D([], [], ls="", marker="o", color=colour, label=kind))
+        if (status == "failed").any():
+            failed = "no limit cycle found"
+            handles.append(Line2D([], [], ls="", marker="x", color="0.3", label=failed))
+    if (study["flight"].values == "backwards").any():
+        handles.append(Line2D([], [], label="flies backwards", **_BACKWARDS))
+    if study["sheet_jump"].values.any():
+        handles.append(Line2D([], [], label="neighbours on different flights", **_JUMP))
     return handles

@@ -13,7 +13,7 @@ import sys
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeGuard
 
 import numpy as np
 
@@ -30,6 +30,8 @@ Place: TypeAlias = tuple[int, ...]
 _STRIDE = 4
 # Of a million points the places alone take some hundred megabytes, their results two gigabytes.
 MOST_POINTS = 2_000_000
+# Of the way to the value before: what a flow errs by counts little, nor does its curvature.
+_STEP = 1e-2
 _LARGEST = sys.float_info.max
 
 
@@ -89,6 +91,21 @@ class Grid:
             for i, (name, values) in zip(place, self.parameters.items(), strict=True)
         }
 
+    def steps(self, place: Place) -> dict[str, float]:
+        """Small steps, by name, in those parameters that are numbers at a place.
+
+        Towards the value before, whose bird is known to be possible; at the first value away from
+        zero, and none at zero itself. Like the neighbour, they do not depend on values after.
+        """
+        steps = {}
+        for i, (name, values) in zip(place, self.parameters.items(), strict=True):
+            here, before = values[i], values[max(i - 1, 0)]
+            if is_number(here) and is_number(before):
+                way = float(before) - float(here) if i else float(here)
+                if way:
+                    steps[name] = _STEP * way
+        return steps
+
     def extends(self, other: Grid) -> bool:
         """Whether every place of `other` has the same values here, and the same parameters."""
         return list(self.parameters) == list(other.parameters) and all(
@@ -108,6 +125,11 @@ def parent(place: Place) -> Place | None:
             back = _STRIDE if i % _STRIDE == 0 else 1
             return (*place[:axis], i - back, *place[axis + 1 :])
     return None
+
+
+def is_number(value: Value) -> TypeGuard[float]:
+    """Whether a value is a number; a switch is none."""
+    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def overlap(names: Sequence[str]) -> tuple[str, str] | None:

@@ -20,6 +20,7 @@ from birdmb.orbits import find_limit_cycle
 from birdmb.orbits.problem import HasInitialGuess
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.sweeps.grid import Value
+from birdmb.studies.sweeps.sensitivity import sensitivities
 from birdmb.studies.sweeps.settings import Search, Trimming
 from birdmb.studies.trim import TrimGuess, trim_flight
 from birdmb.studies.validity import assess_validity
@@ -48,14 +49,15 @@ class Guess:
 
 @dataclass(frozen=True)
 class Task:
-    """All that the outcome of a point depends on."""
+    """All that the outcome of a point depends on; `steps` are those of its sensitivities."""
 
     bird: Bird
     model: ModelFactory
     search: Search
     values: Mapping[str, Value]
+    steps: Mapping[str, float]
     guess: Guess | None
-    trimming: Trimming | None = None
+    trimming: Trimming | None
 
 
 @dataclass(frozen=True)
@@ -88,9 +90,10 @@ def compute(task: Task) -> Outcome:
         with _one_thread():
             if task.trimming is None:
                 cycle, start = _found(task)
-                result = described(cycle)
+                trimmed = dict[str, float]()
             else:
-                result, start = _trimmed(task, task.trimming)
+                cycle, trimmed, start = _trimmed(task, task.trimming)
+            result = described(cycle) | {"trimmed": trimmed, **_answers(task, cycle, trimmed)}
     except KeyboardInterrupt:
         raise
     except BaseException as error:
@@ -155,7 +158,7 @@ def _found(task: Task) -> tuple[FlightCycle, str]:
     return cast("FlightCycle", find_limit_cycle(model, **search)), COLD
 
 
-def _trimmed(task: Task, trimming: Trimming) -> tuple[dict[str, Any], str]:
+def _trimmed(task: Task, trimming: Trimming) -> tuple[FlightCycle, dict[str, float], str]:
     guess, near = task.guess, None
     if guess is not None:
         near = TrimGuess(guess.trimmed, list(guess.x0.values()))
@@ -169,8 +172,20 @@ def _trimmed(task: Task, trimming: Trimming) -> tuple[dict[str, Any], str]:
         guess=near,
         search=asdict(task.search),
     )
-    result = described(trim.cycle) | {"trimmed": trim.values}
-    return result, guess.place if guess is not None and trim.from_guess else COLD
+    start = guess.place if guess is not None and trim.from_guess else COLD
+    return trim.cycle, trim.values, start
+
+
+def _answers(task: Task, cycle: FlightCycle, trimmed: Mapping[str, float]) -> dict[str, Any]:
+    found = sensitivities(
+        cycle, task.bird, task.model, task.values, task.steps, task.trimming, trimmed
+    )
+    return {"sensitivity": found, "state_scale": cycle.state_scale.tolist()}
+
+
+def _forwards(cycle: FlightCycle) -> bool:
+    """Whether the bird makes its way nose first; searches also end on ones that fall tail first."""
+    return bool(cycle.mean_velocity[0] > 0.0 and math.cos(cycle.mean_pitch) > 0.0)
 
 
 def described(cycle: FlightCycle) -> dict[str, Any]:
@@ -200,10 +215,10 @@ def described(cycle: FlightCycle) -> dict[str, Any]:
         "x0": dict(zip(cycle.state_names, cycle.x0.tolist(), strict=True)),
         "multiplier_real": cycle.multipliers.real.tolist(),
         "multiplier_imag": cycle.multipliers.imag.tolist(),
-        "multiplier_error": cycle.multiplier_errors.tolist(),
+        "multiplier_error": cycle.verdict_errors.tolist(),
         "monodromy": cycle.monodromy.tolist(),
         "stability": cycle.stability,
+        "flight": "forwards" if _forwards(cycle) else "backwards",
         "integrator": model.integration.method if isinstance(model, MultibodyModel) else "explicit",
-        "trimmed": {},
         "warning": " ".join(validity.warnings),
     }

@@ -14,6 +14,7 @@ from typing import Any
 from birdmb.models import MultibodyModel
 from birdmb.orbits.newton import SolverMethod
 from birdmb.studies.cycles import ModelFactory
+from birdmb.studies.relevance import check_relevant
 from birdmb.studies.sweeps.checks import check_processes, check_trimming
 from birdmb.studies.sweeps.dispatch import on_executor, on_processes
 from birdmb.studies.sweeps.grid import Grid, Place, Value, parent
@@ -87,12 +88,14 @@ def sweep(
         TopologyError: the bird has no value of that name. A value that is impossible is the failure
             of its points.
         SweepError: the store holds another study, or a worker process died.
-        ArgumentError: an impossible tolerance, number of segments or method.
+        ArgumentError: an impossible tolerance, number of segments, method or trim, or a value
+            that is varied or trimmed has no effect on the model.
     """
     grid = Grid.of(bird, vary)
     search = Search(tolerance, max_iterations, segments, method)
     if trim is not None:
         check_trimming(bird, grid, trim)
+    check_relevant(bird, {**grid.parameters, **(trim.parameters if trim else {})}, model)
     if executor is None:
         check_processes(bird, model, workers)
     with Store.opened(store, identity(bird, model, search, trim), grid) as opened:
@@ -119,6 +122,7 @@ class _Filling:
         self._search, self._trimming = search, trimming
         self._grid, self._store, self._on_point = grid, store, on_point
         self._points = dict(store.contents.points)
+        self._nearest: dict[Place, Place | None] = {}
         self._followers: dict[Place | None, list[Place]] = {}
         for place in grid.places():
             if place not in self._points:
@@ -158,19 +162,38 @@ class _Filling:
         return "; ".join(texts + more)
 
     def _task(self, place: Place) -> Task:
-        values = self._grid.values(place)
-        guess = self._guess(place)
-        return Task(self._bird, self._model, self._search, values, guess, self._trimming)
+        return Task(
+            bird=self._bird,
+            model=self._model,
+            search=self._search,
+            values=self._grid.values(place),
+            steps=self._grid.steps(place),
+            guess=self._guess(place),
+            trimming=self._trimming,
+        )
 
     def _guess(self, place: Place) -> Guess | None:
-        before = parent(place)
-        while before is not None:
-            result = self._points[before].result
-            if result is not None:
-                kept = (result[key] for key in ("x0", "monodromy", "trimmed"))
-                return Guess(place_text(before), *kept)
-            before = parent(before)
-        return None
+        before = self._nearest_flight(parent(place))
+        if before is None:
+            return None
+        result = self._points[before].result
+        assert result is not None
+        return Guess(place_text(before), result["x0"], result["monodromy"], result["trimmed"])
+
+    def _nearest_flight(self, place: Place | None) -> Place | None:
+        """The place, or the first of its predecessors that has a flight.
+
+        Kept for all places on the way, which would else grow with each point that fails.
+        """
+        failed = []
+        while place is not None and self._points[place].result is None:
+            if place in self._nearest:
+                place = self._nearest[place]
+                break
+            failed.append(place)
+            place = parent(place)
+        self._nearest |= dict.fromkeys(failed, place)
+        return place
 
     def _tell(self, values: Mapping[str, Value], outcome: Outcome | None) -> None:
         if self._on_point is not None:

@@ -18,6 +18,7 @@ from birdmb.studies.sweeps import figures
 from birdmb.studies.sweeps.contents import Contents
 from birdmb.studies.sweeps.errors import SweepError
 from birdmb.studies.sweeps.grid import Grid, Place, Value
+from birdmb.studies.sweeps.jumps import sheet_jumps
 from birdmb.studies.sweeps.point import Outcome
 from birdmb.studies.sweeps.store import read
 from birdmb.topology import Bird
@@ -93,12 +94,16 @@ class Study:
     def to_xarray(self, *, timings: bool = False) -> xr.Dataset:
         """The study as a labelled dataset with real variables, fit for NetCDF.
 
-        Dimensions: the parameters, `state`, `state_at_start`, `multiplier` (largest modulus first).
+        Dimensions: the parameters, `state`, `state_at_start`, `multiplier` (largest modulus first),
+        `along` (the parameters' names).
         Where there is no cycle, or none yet, numbers are NaN and texts empty; states that only some
         points have are NaN at the others. `status` is "found", "failed" or "missing", `failure` the
-        reason, `warning` how a cycle leaves the model's validity, `integrator` explicit or
-        implicit, `start` the neighbour that the search started from. The same study gives the same
-        dataset to the last bit, however it was computed; but for `seconds`, which `timings` adds.
+        reason, `flight` "forwards" or "backwards", `warning` how a cycle leaves the model's
+        validity, `integrator` explicit or implicit, `multiplier_error` what the verdict counts,
+        `start` the neighbour that the search started from. `sheet_jump` is true where
+        the step to the next larger value of the parameter `along` does not explain how the flights
+        at both differ (`birdmb.studies.sweeps.jumps`). The same study gives the same dataset to the
+        last bit, however it was computed; but for `seconds`, which `timings` adds.
         """
         found = {place: o.result for place, o in self.outcomes.items() if o.result is not None}
         states = list(dict.fromkeys(name for result in found.values() for name in result["x0"]))
@@ -124,12 +129,14 @@ class Study:
         )
         if timings:
             data["seconds"] = self._filled({p: o.seconds for p, o in self.outcomes.items()})
+        bounds = (self.identity["trim"] or {}).get("parameters", {})
+        data["sheet_jump"] = sheet_jumps(Grid(self.parameters), found, bounds)
         data |= _derived(data)
         coordinates: dict[str, Any] = {
             name: (name, list(values), {"units": "deg"} if name.endswith("_deg") else {})
             for name, values in self.parameters.items()
         }
-        coordinates |= {"state": states, "state_at_start": states}
+        coordinates |= {"state": states, "state_at_start": states, "along": [*self.parameters]}
         return xr.Dataset(
             data,
             coords=coordinates | {"multiplier": np.arange(len(states))},
@@ -155,6 +162,7 @@ class Study:
             "failure": {p: o.reason for p, o in self.outcomes.items()},
             "start": {p: o.start for p, o in self.outcomes.items()},
             "stability": {p: r["stability"] for p, r in found.items()},
+            "flight": {p: r["flight"] for p, r in found.items()},
             "warning": {p: r["warning"] for p, r in found.items()},
             "integrator": {p: r["integrator"] for p, r in found.items()},
         }
