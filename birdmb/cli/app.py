@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from birdmb.cli.drawing import ignore_settings
 from birdmb.cli.flight_commands import commands as flight_commands
 from birdmb.cli.options import (
     Assignments,
@@ -18,6 +19,7 @@ from birdmb.cli.options import (
     Topology,
 )
 from birdmb.cli.outcome import reported
+from birdmb.cli.streams import standard_streams
 from birdmb.cli.study_commands import commands as study_commands
 
 app = typer.Typer(
@@ -52,14 +54,15 @@ def _show_version(wanted: bool) -> None:
 
 @app.callback()
 def _everywhere(
-    version: Annotated[
+    version: Annotated[  # noqa: ARG001 - its callback answers
         bool,
         typer.Option(
             "--version", callback=_show_version, is_eager=True, help="Show the version and exit."
         ),
     ] = False,
 ) -> None:
-    pass
+    with reported():
+        ignore_settings()
 
 
 @app.command(
@@ -269,4 +272,5 @@ app.add_typer(flight_commands)
 
 def main() -> None:
     """Run the command line."""
-    app()
+    with standard_streams():
+        app()

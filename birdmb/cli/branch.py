@@ -11,8 +11,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from rich.console import Console
 
+from birdmb.cli.console import messages, output
+from birdmb.cli.drawing import plain_style
 from birdmb.cli.files import prepare, remove_drafts, write_whole
 from birdmb.cli.interrupt import ending_at_once
 from birdmb.cli.outcome import InputError, SearchFailed
@@ -23,6 +24,7 @@ from birdmb.orbits import Bifurcation, BranchPoint, ConvergenceError, Steps, loa
 from birdmb.studies.branch import bird_branch
 
 if TYPE_CHECKING:
+    from rich.console import Console
     from rich.table import Table
 
     from birdmb.orbits import Branch
@@ -68,7 +70,7 @@ def run(
     directories = _prepared(out, store)
     if store is None and out is not None:
         store = out / "branch.nc"
-    progress = Progress(Console(stderr=True))
+    progress = Progress(messages())
     kept = _kept(store, resume, progress)
 
     def tidy() -> None:
@@ -81,7 +83,10 @@ def run(
     # What libraries print on the way, as Exudyn does, is no result.
     with ending_at_once(tidy), redirect_stdout(sys.stderr), progress.shown():
         branch = _followed(bird, wanted, kept, store, progress)
-        written = [] if store is None else [store]
+    if not as_json:
+        _report(output(), branch)
+    written = [] if store is None else [store]
+    with ending_at_once(tidy), redirect_stdout(sys.stderr), progress.shown(), plain_style():
         if out is not None:
             from birdmb.studies.branch_figure import plot_bird_branch  # noqa: PLC0415 - takes time
 
@@ -97,7 +102,6 @@ def run(
         json.dump(found, sys.stdout, allow_nan=False, indent=2)
         sys.stdout.write("\n")
         return
-    _report(Console(), branch)
     for path in written:
         progress.line(f"wrote {path}")
 

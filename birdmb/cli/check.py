@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from rich.console import Console
 from rich.table import Table
 
 from birdmb.aerodynamics.body_drag import body_drag, body_drag_force
 from birdmb.aerodynamics.tail import tail_surface
+from birdmb.cli.console import messages, output
 from birdmb.cli.inertia import Spring, hinge_springs, spring_of
 from birdmb.cli.progress import Progress
 from birdmb.cli.report import table_of
@@ -20,7 +20,7 @@ _DRAG_SPEED = 10.0  # m/s
 
 def run(bird: Bird) -> None:
     """Print what a bird is, and warnings."""
-    progress = Progress(Console(stderr=True))
+    progress = Progress(messages())
     with progress.shown():
         progress.doing("measuring the wing")
         tables = [_bird(bird), _segments(bird), _joints(bird)]
@@ -30,7 +30,7 @@ def run(bird: Bird) -> None:
         if bird.hinged_feathers:
             tables.append(_springs("Hinges of feathers", "hinge", hinge_springs(bird)))
         warnings = warnings_on(bird)
-    console = Console()
+    console = output()
     for table in tables:
         console.print()
         console.print(table)

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
-from rich.console import Console
-
+from birdmb.cli.console import messages, output
+from birdmb.cli.drawing import plain_style
 from birdmb.cli.files import prepare, remove_drafts, write_results
 from birdmb.cli.interrupt import ending_at_once
-from birdmb.cli.outcome import InputError, SearchFailed
+from birdmb.cli.outcome import InputError, ResultUnwrittenError, SearchFailed
 from birdmb.cli.progress import Progress
 from birdmb.cli.report import print_report
 from birdmb.cli.results import finite, result_object
@@ -48,7 +48,7 @@ def run(bird: Bird, search: Search, *, out: Path | None, as_json: bool) -> None:
         raise InputError(f"--tolerance must be positive, not {search.tolerance:g}.")
     if out is not None:
         prepare(out)
-    progress = Progress(Console(stderr=True))
+    progress = Progress(messages())
 
     def tidy() -> None:
         progress.stop()
@@ -60,16 +60,23 @@ def run(bird: Bird, search: Search, *, out: Path | None, as_json: bool) -> None:
         progress.doing("loads and power over the beat")
         validity = assess_validity(cycle)
         found = result_object(cycle, validity, search.model)
-        written = [] if out is None else write_results(cycle, out, progress)
+    if not as_json:
+        print_report(output(), cycle, validity)
+    written: list[Path] = []
+    if out is not None:
+        try:
+            with ending_at_once(tidy), _only_results_on_stdout(), progress.shown(), plain_style():
+                written = write_results(cycle, out, progress)
+        except InputError as error:
+            raise ResultUnwrittenError(str(error), found) from error
     if as_json:
         json.dump(
             {**found, "files": list(map(str, written))}, sys.stdout, allow_nan=False, indent=2
         )
         sys.stdout.write("\n")
-    else:
-        print_report(Console(), cycle, validity)
-        for path in written:
-            progress.line(f"wrote {path}")
+        return
+    for path in written:
+        progress.line(f"wrote {path}")
 
 
 def _found(bird: Bird, search: Search, progress: Progress) -> FlightCycle:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import typer
 
+from birdmb.cli.drawing import plain_style
 from birdmb.cli.files import prepare, write_whole
 from birdmb.studies.sweeps import Study
 from birdmb.topology import parse_assignment
@@ -19,14 +20,15 @@ def run(store: Path, quantities: Sequence[str], at: Sequence[str], out: Path) ->
     """Draw the study in `store` into the directory `out`, and write its dataset there."""
     study = Study.open(store)
     fixed = dict(map(parse_assignment, at))
-    figures = {
-        f"{store.stem}_{name}.png" if name else f"{store.stem}.png": study.plot(name, at=fixed)
-        for name in (quantities or (None,))
-    }
-    prepare(out)
-    for name, figure in figures.items():
-        save = partial(figure.savefig, dpi=_DPI, format="png")
-        typer.echo(f"wrote {write_whole(out / name, save)}")
+    with plain_style():
+        figures = {
+            f"{store.stem}_{name}.png" if name else f"{store.stem}.png": study.plot(name, at=fixed)
+            for name in (quantities or (None,))
+        }
+        prepare(out)
+        for name, figure in figures.items():
+            save = partial(figure.savefig, dpi=_DPI, format="png")
+            typer.echo(f"wrote {write_whole(out / name, save)}")
     dataset = study.to_xarray(timings=True)
     save = partial(dataset.to_netcdf, engine="h5netcdf")
     typer.echo(f"wrote {write_whole(out / f'{store.stem}.nc', save)}")

@@ -7,8 +7,8 @@ from functools import partial
 from pathlib import Path
 
 import typer
-from rich.console import Console
 
+from birdmb.cli.console import messages
 from birdmb.cli.files import write_whole
 from birdmb.cli.progress import Progress
 from birdmb.cli.results import verdict_sentence
@@ -29,7 +29,7 @@ def run(
     out: Path | None,
 ) -> None:
     """Trim, and say to what, by which values, and how it flies then."""
-    progress = Progress(Console(stderr=True))
+    progress = Progress(messages())
     with progress.shown():
         progress.doing("trimming the flight")
         found = trim_flight(
