@@ -3,6 +3,7 @@
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib import import_module
 from pathlib import Path
 
 from birdmb.cli.outcome import InputError
@@ -17,7 +18,7 @@ def ignore_settings() -> None:
     os.environ["MATPLOTLIBRC"] = os.devnull
     if Path("matplotlibrc").is_file():  # which matplotlib prefers to all others
         try:
-            pass
+            import_module("matplotlib")
         except UnicodeDecodeError as error:
             raise InputError(
                 f"{Path('matplotlibrc').absolute()}: is no text in UTF-8, so that matplotlib does "
