@@ -8,6 +8,7 @@ import typer
 from birdmb.cli.drawing import ignore_settings
 from birdmb.cli.flight_commands import commands as flight_commands
 from birdmb.cli.options import (
+    MOST_STEPS,
     Assignments,
     Json,
     Method,
@@ -17,10 +18,13 @@ from birdmb.cli.options import (
     StepsPerBeat,
     Tolerance,
     Topology,
+    number,
 )
 from birdmb.cli.outcome import reported
 from birdmb.cli.streams import standard_streams
 from birdmb.cli.study_commands import commands as study_commands
+
+_LARGEST = 1e15  # of all numbers in a topology file
 
 app = typer.Typer(
     name="birdmb",
@@ -171,10 +175,23 @@ def branch(
             "wing.root.x.",
         ),
     ],
-    start: Annotated[float, typer.Option("--from", metavar="X", help="Where the branch starts.")],
+    start: Annotated[
+        float,
+        typer.Option(
+            "--from",
+            metavar="X",
+            help="Where the branch starts.",
+            callback=number("--from", -_LARGEST, _LARGEST, "no value of a bird is larger"),
+        ),
+    ],
     stop: Annotated[
         float,
-        typer.Option("--to", metavar="X", help="Which way it goes, and the end of the range."),
+        typer.Option(
+            "--to",
+            metavar="X",
+            help="Which way it goes, and the end of the range.",
+            callback=number("--to", -_LARGEST, _LARGEST, "no value of a bird is larger"),
+        ),
     ],
     model: ModelChoice = ModelName.MULTIBODY,
     assignments: Assignments = None,
@@ -202,7 +219,7 @@ def branch(
     longest_step: Annotated[
         float,
         typer.Option(
-            min=1e-6,
+            callback=number("--longest-step", 1e-6, 10.0, "1 is about the whole range"),
             metavar="X",
             help="Longest step along the branch, in parameter ranges and typical sizes of states.",
         ),
@@ -211,6 +228,7 @@ def branch(
         int | None,
         typer.Option(
             min=4,
+            max=MOST_STEPS,
             metavar="N",
             help="Integration steps per wingbeat.",
             show_default="the most the model chooses over the range",

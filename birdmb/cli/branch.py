@@ -65,8 +65,6 @@ def run(
     as_json: bool,
 ) -> None:
     """Follow the branch, report it on standard output, keep it in `store`, draw it into `out`."""
-    if not 0 < wanted.tolerance < np.inf:
-        raise InputError(f"--tolerance must be positive, not {wanted.tolerance:g}.")
     directories = _prepared(out, store)
     if store is None and out is not None:
         store = out / "branch.nc"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
@@ -44,8 +43,6 @@ class Search:
 
 def run(bird: Bird, search: Search, *, out: Path | None, as_json: bool) -> None:
     """Find the limit cycle, report it on standard output and write it into `out`."""
-    if not 0 < search.tolerance < math.inf:
-        raise InputError(f"--tolerance must be positive, not {search.tolerance:g}.")
     if out is not None:
         prepare(out)
     progress = Progress(messages())

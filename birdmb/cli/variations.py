@@ -60,6 +60,8 @@ def requested_bounds(
     for text in texts:
         name, _, listed = text.partition("=")
         bird.value(name.strip())
+        if name.strip() in bounds:
+            raise InputError(f"{option} gives {name.strip()} twice; keep one of the two.")
         try:
             low, high = map(float, listed.split(":"))
         except ValueError:
