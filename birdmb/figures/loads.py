@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
-from birdmb.figures.style import LINE, MEAN, beat_axis, label_beat, model_of
+from birdmb.figures.style import LINE, MEAN, beat_axis, bird_name, label_beat, model_of
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
@@ -28,7 +28,7 @@ def loads_and_power(cycle: FlightCycle) -> Figure:
     draw_wing_power(top, cycle)
     draw_joint_powers(bottom, cycle)
     label_beat(bottom)
-    figure.suptitle(f"{model_of(cycle).bird.name}: loads and power over a beat", fontsize="medium")
+    figure.suptitle(f"{bird_name(cycle)}: loads and power over a beat", fontsize="medium")
     return figure
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from birdmb.figures.style import model_of
+from birdmb.figures.style import bird_name
 from birdmb.orbits.plots import STABLE_COLOUR, UNSTABLE_COLOUR, draw_multipliers
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ def multipliers(cycle: FlightCycle) -> Figure:
     """Draw the multipliers in the unit circle, with error discs, moduli and doubling times."""
     figure = Figure(figsize=(6.4, 5.6), layout="constrained")
     draw_labelled_multipliers(figure.subplots(), cycle)
-    figure.suptitle(f"{model_of(cycle).bird.name}: Floquet multipliers", fontsize="medium")
+    figure.suptitle(f"{bird_name(cycle)}: Floquet multipliers", fontsize="medium")
     return figure
 
 

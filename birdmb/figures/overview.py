@@ -11,7 +11,7 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from birdmb.figures.loads import draw_loads, draw_wing_power
 from birdmb.figures.multipliers import draw_labelled_multipliers
 from birdmb.figures.states import draw_states
-from birdmb.figures.style import label_beat, model_of
+from birdmb.figures.style import bird_name, label_beat
 from birdmb.figures.wing import OBLIQUE, draw_wing_phases
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def overview(cycle: FlightCycle) -> Figure:
     circle, numbers = right.subplots(2, 1, height_ratios=(1.7, 1))
     draw_labelled_multipliers(circle, cycle)
     _write_numbers(numbers, cycle)
-    top.suptitle(f"{model_of(cycle).bird.name}: {_verdict(cycle)}", fontsize="large")
+    top.suptitle(f"{bird_name(cycle)}: {_verdict(cycle)}", fontsize="large")
     return figure
 
 

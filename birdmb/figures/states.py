@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
 from birdmb._typing import FloatArray
-from birdmb.figures.style import DRIVER, LINE, beat_axis, label_beat, model_of, symbol
+from birdmb.figures.style import DRIVER, LINE, beat_axis, bird_name, label_beat, model_of, symbol
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
@@ -25,7 +25,7 @@ def states(cycle: FlightCycle) -> Figure:
     rows = len(cycle.state_names) // 2
     figure = Figure(figsize=(8.5, 0.7 + 1.75 * rows), layout="constrained")
     draw_states(figure, cycle)
-    figure.suptitle(f"{model_of(cycle).bird.name}: states over a beat", fontsize="medium")
+    figure.suptitle(f"{bird_name(cycle)}: states over a beat", fontsize="medium")
     return figure
 
 

@@ -32,6 +32,16 @@ def symbol(name: str) -> str:
     return _SYMBOLS.get(name, name)
 
 
+def literal(text: object) -> str:
+    """A name as it stands in a figure, where a dollar sign would begin a formula."""
+    return str(text).replace("$", r"\$")
+
+
+def bird_name(cycle: FlightCycle) -> str:
+    """Name of the bird as it stands in a figure."""
+    return literal(model_of(cycle).bird.name)
+
+
 def stroke_speed(cycle: FlightCycle) -> FloatArray:
     """Speed (K,) m/s at which the wings go down relative to the body, averaged over their area."""
     beat = cycle.beat

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure, SubFigure
 from matplotlib.lines import Line2D
 
 from birdmb._typing import FloatArray
-from birdmb.figures.style import model_of, stroke_speed
+from birdmb.figures.style import bird_name, model_of, stroke_speed
 from birdmb.wing.outline import WingOutline, wing_outline
 
 if TYPE_CHECKING:
@@ -84,7 +84,7 @@ def wing_phases(cycle: FlightCycle) -> Figure:
     figure = Figure(figsize=(13, 6.2), layout="constrained")
     draw_wing_phases(figure, cycle, (OBLIQUE, BEHIND, TOP))
     figure.legend(handles=_legend(), loc="outside lower center", ncols=5, frameon=False)
-    figure.suptitle(f"{model_of(cycle).bird.name}: the wings in body axes", fontsize="medium")
+    figure.suptitle(f"{bird_name(cycle)}: the wings in body axes", fontsize="medium")
     return figure
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from birdmb.figures.style import literal
 from birdmb.orbits import Branch, BranchPoint
 from birdmb.orbits.plots import MARKERS, VERDICT_COLOURS
 from birdmb.studies.validity import LARGEST_ANGLE
@@ -50,7 +51,7 @@ def plot_bird_branch(branch: Branch) -> Figure:
     for verdict in dict.fromkeys(point.stability for point in branch.points):
         rows[0].plot([], [], "-", color=VERDICT_COLOURS[verdict], label=verdict)
     rows[0].legend(fontsize="small")
-    rows[0].set(ylabel="mean speed (m/s)", title=str(branch.settings.get("bird", "")))
+    rows[0].set(ylabel="mean speed (m/s)", title=literal(branch.settings.get("bird", "")))
     rows[1].set(ylabel="|Λ|")
     rows[2].set(ylabel="largest effective angle\nof attack (deg)", xlabel=branch.parameter_name)
     low, high = branch.parameters.min(), branch.parameters.max()

@@ -8,7 +8,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from birdmb.figures.style import symbol
+from birdmb.figures.style import literal, symbol
 
 _PANELS = {"u": ("m/s", 1.0), "w": ("m/s", 1.0)} | {
     "q": ("°/s", np.degrees(1.0)),
@@ -40,7 +40,7 @@ def plot_gust_response(data: xr.Dataset) -> Figure:
     for axes in rows[-1]:
         axes.set_xlabel("time (s)")
     figure.align_ylabels(rows)
-    figure.suptitle(f"{data.attrs['bird']}: flight through a gust", fontsize="medium")
+    figure.suptitle(f"{literal(data.attrs['bird'])}: flight through a gust", fontsize="medium")
     return figure
 
 

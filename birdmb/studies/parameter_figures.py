@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from birdmb.figures.style import LINE
+from birdmb.figures.style import LINE, literal
 from birdmb.orbits.plots import STABLE_COLOUR, UNSTABLE_COLOUR
 
 _ROWS = {
@@ -94,7 +94,7 @@ def _marker(colour: str, face: str) -> dict[str, Any]:
 
 def _title(figure: Figure, study: xr.Dataset, what: str) -> None:
     outside = " (open: outside the model's validity)" if (study["warning"] != "").any() else ""
-    figure.suptitle(f"{study.attrs['bird']}: {what}{outside}", fontsize="medium")
+    figure.suptitle(f"{literal(study.attrs['bird'])}: {what}{outside}", fontsize="medium")
 
 
 def _parameter(study: xr.Dataset) -> str:

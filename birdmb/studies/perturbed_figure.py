@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from birdmb.figures.style import symbol
+from birdmb.figures.style import literal, symbol
 
 _BODY = {"u": ("m/s", 1.0), "w": ("m/s", 1.0), "theta": ("°", np.degrees(1.0))} | {
     "q": ("°/s", np.degrees(1.0))
@@ -41,7 +41,7 @@ def plot_perturbed_flight(data: xr.Dataset) -> Figure:
     path.spines[["top", "right"]].set_visible(False)
     path.legend(frameon=False, fontsize="small", loc="best")
     figure.suptitle(
-        f"{data.attrs['bird']}: flight after a disturbance along each mode "
+        f"{literal(data.attrs['bird'])}: flight after a disturbance along each mode "
         f"({data.attrs['amplitude']:.3g} of the state scale)",
         fontsize="medium",
     )

@@ -12,6 +12,7 @@ from matplotlib.colors import Normalize, TwoSlopeNorm
 from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
+from birdmb.figures.style import literal
 from birdmb.studies.tail import (
     AMPLITUDE,
     OPENING,
@@ -60,7 +61,8 @@ def plot_manifold(data: xr.Dataset) -> Figure:
     for axes in rows[-1]:
         axes.set_xlabel("tail opening (°)")
     figure.suptitle(
-        f"{data.attrs['bird']}: level flights (grey: none; hatched: excluded)", fontsize="medium"
+        f"{literal(data.attrs['bird'])}: level flights (grey: none; hatched: excluded)",
+        fontsize="medium",
     )
     return figure
 
@@ -100,7 +102,7 @@ def plot_envelope(data: xr.Dataset, openings: Sequence[float] | None = None) -> 
     axes.set(xlabel="speed of level flight (m/s)", ylabel="cost of transport")
     axes.legend(title="tail opening", frameon=False)
     axes.spines[["top", "right"]].set_visible(False)
-    axes.set_title(f"{data.attrs['bird']}: least cost at each speed", fontsize="medium")
+    axes.set_title(f"{literal(data.attrs['bird'])}: least cost at each speed", fontsize="medium")
     return figure
 
 
@@ -143,7 +145,7 @@ def plot_pareto(data: xr.Dataset) -> Figure:
     axes.set(xlabel="cost of transport", ylabel="|Λ|max")
     axes.legend(frameon=False)
     axes.spines[["top", "right"]].set_visible(False)
-    axes.set_title(f"{data.attrs['bird']}: what stability costs", fontsize="medium")
+    axes.set_title(f"{literal(data.attrs['bird'])}: what stability costs", fontsize="medium")
     return figure
 
 
@@ -160,7 +162,7 @@ def plot_stability_openings(found: Sequence[StabilityOpening], name: str) -> Fig
     axes.set(xlabel="flap amplitude (°)", ylabel="tail opening at |Λ|max = 1 (°)")
     axes.legend(title="sweep offset", frameon=False)
     axes.spines[["top", "right"]].set_visible(False)
-    axes.set_title(f"{name}: stable above the lines", fontsize="medium")
+    axes.set_title(f"{literal(name)}: stable above the lines", fontsize="medium")
     return figure
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from birdmb.figures.style import DRIVER, LINE, beat_axis, label_beat, model_of
+from birdmb.figures.style import DRIVER, LINE, beat_axis, bird_name, label_beat
 from birdmb.models import FlightCycle
 from birdmb.studies.tunnel import tunnel_and_free_flight
 
@@ -44,7 +44,7 @@ def plot_tunnel_and_free_flight(cycle: FlightCycle) -> Figure:
         label_beat(axes)
     figure.align_ylabels()
     figure.suptitle(
-        f"{model_of(cycle).bird.name}: body held at its mean state, and free (weight dotted)",
+        f"{bird_name(cycle)}: body held at its mean state, and free (weight dotted)",
         fontsize="medium",
     )
     return figure

@@ -10,6 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.colors import CenteredNorm
 from matplotlib.figure import Figure
 
+from birdmb.figures.style import literal
+
 _PANELS = {
     "angle_of_attack": "geometric",
     "effective_angle_of_attack": "effective (with downwash)",
@@ -39,7 +41,7 @@ def plot_validity(data: xr.Dataset) -> Figure:
         axes.set_xlabel("phase of the beat")
     panels[0].set_ylabel("span position (part of the half-span)")
     figure.colorbar(panels[1].collections[0], ax=panels, label="angle of attack (°)", pad=0.01)
-    figure.suptitle(f"{data.attrs['bird']}: angle of attack", fontsize="medium")
+    figure.suptitle(f"{literal(data.attrs['bird'])}: angle of attack", fontsize="medium")
     return figure
 
 

@@ -36,6 +36,7 @@ from birdmb.topology.numbers import (
     Density,
     Direction,
     Distance,
+    Fraction,
     Frequency,
     Inertia,
     Length,
@@ -120,7 +121,7 @@ class Discretisation(Part):
     elements: Annotated[int, Strict(), Field(ge=2, le=MOST_ELEMENTS)] = Field(
         description="elements per wing, 2 or more; memory and time grow with their square and cube"
     )
-    rounding: Annotated[Real, Field(gt=0, le=1)] = Field(
+    rounding: Fraction = Field(
         description="rounding of the edges' corners, a fraction above 0 up to 1"
     )
 

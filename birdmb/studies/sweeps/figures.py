@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
-from birdmb.figures.style import LINE
+from birdmb.figures.style import LINE, literal
 from birdmb.orbits.plots import STABLE_COLOUR, UNSTABLE_COLOUR
 from birdmb.studies.sweeps.errors import SweepError
 
@@ -43,7 +43,7 @@ _BEYOND: dict[str, Any] = {"ls": "", "marker": ".", "color": "k", "markersize": 
 
 def plot_study(study: xr.Dataset, quantity: str | None, at: Mapping[str, Any]) -> Figure:
     """Draw quantities of a study's dataset; see `Study.plot`."""
-    title = f"{study.attrs['bird']}, {study.attrs['model']}"
+    title = f"{literal(study.attrs['bird'])}, {study.attrs['model']}"
     plane, fixed = _left(study, at)
     quantities = OVERVIEW if quantity is None else (quantity,)
     for name in quantities:
