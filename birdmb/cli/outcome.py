@@ -52,6 +52,11 @@ def reported(*, as_json: bool = False) -> Iterator[None]:
     except KeyboardInterrupt:
         typer.echo(INTERRUPTED_LINE, err=True)
         raise typer.Exit(INTERRUPTED) from None
+    except OSError as error:
+        if error.filename is None:  # of a standard stream
+            raise
+        typer.echo(f"Error: {error.filename}: {(error.strerror or str(error)).lower()}.", err=True)
+        raise typer.Exit(BAD_INPUT) from None
     except BirdmbError as error:
         sentence = " ".join(str(error).split())  # arrays in it may have been broken over lines
         typer.echo(f"Error: {sentence}", err=True)

@@ -34,9 +34,7 @@ def test_what_an_encoding_lacks_is_spelled_out():
     result = birdmb("branch", IBIS, *QUICK, *along, PYTHONIOENCODING="cp1252")
     assert result.returncode == 0, result.stderr
     assert b"|Lambda|max" in result.stdout
-    assert "\n°".encode("cp1252") in result.stdout.replace(b" ", b"").replace(b"\r", b"") or (
-        "°".encode("cp1252") in result.stdout
-    )
+    assert "°".encode("cp1252") in result.stdout
     assert b"|Lambda|max" in result.stderr
 
 
@@ -48,10 +46,9 @@ def test_ascii_has_no_degrees():
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="writes to /dev/full")
-@pytest.mark.parametrize("command", [("check", IBIS), ("--help",), ("--version",)])
-def test_a_full_disk_is_a_sentence(command):
+def test_a_full_disk_is_a_sentence():
     with open("/dev/full", "w") as full:  # noqa: PTH123
-        result = birdmb(*command, stdout=full)
+        result = birdmb("check", IBIS, stdout=full)
     assert result.returncode == 2
     assert result.stderr == (
         b"Error: standard output cannot be written (no space left on device).\n"
@@ -81,15 +78,12 @@ def test_a_narrow_terminal_cuts_no_digits(run, monkeypatch, columns):
     assert run("check", IBIS).exit_code == 0
 
 
-@pytest.mark.parametrize("backend", ["module://nowhere.backend_inline", "nonsense", "tkagg"])
-def test_a_backend_that_is_not_here_is_not_asked_for(backend):
-    assert birdmb("check", IBIS, MPLBACKEND=backend).returncode == 0
-
-
 def test_pictures_are_drawn_by_settings_of_their_own(tmp_path):
     (tmp_path / "matplotlibrc").write_text("text.usetex: True\nfont.size: 40\n")
     result = birdmb(
-        "cycle", IBIS, *QUICK, "--out", "out", cwd=tmp_path, MPLBACKEND="module://nowhere"
+        *("cycle", IBIS, *QUICK, "--set", 'name="a$b_{ [/oops]"', "--out", "out"),
+        cwd=tmp_path,
+        MPLBACKEND="nonsense",
     )
     assert result.returncode == 0, result.stderr
     assert b"unstable: the fastest-growing" in result.stdout
