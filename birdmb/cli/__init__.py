@@ -11,5 +11,7 @@ def main() -> None:
     """Run the command line."""
     with ending_the_process():
         from birdmb.cli.app import app  # noqa: PLC0415 - it imports typer
+        from birdmb.cli.streams import standard_streams  # noqa: PLC0415 - so does this
 
-        app()
+        with standard_streams():
+            app()

@@ -5,8 +5,10 @@ from typing import Annotated
 
 import typer
 
+from birdmb.cli.drawing import ignore_settings
 from birdmb.cli.flight_commands import commands as flight_commands
 from birdmb.cli.options import (
+    MOST_STEPS,
     Assignments,
     Json,
     Method,
@@ -16,9 +18,12 @@ from birdmb.cli.options import (
     StepsPerBeat,
     Tolerance,
     Topology,
+    number,
 )
 from birdmb.cli.outcome import reported
 from birdmb.cli.study_commands import commands as study_commands
+
+_LARGEST = 1e15  # of all numbers in a topology file
 
 app = typer.Typer(
     name="birdmb",
@@ -52,14 +57,15 @@ def _show_version(wanted: bool) -> None:
 
 @app.callback()
 def _everywhere(
-    version: Annotated[
+    version: Annotated[  # noqa: ARG001 - its callback answers
         bool,
         typer.Option(
             "--version", callback=_show_version, is_eager=True, help="Show the version and exit."
         ),
     ] = False,
 ) -> None:
-    pass
+    with reported():
+        ignore_settings()
 
 
 @app.command(
@@ -169,10 +175,23 @@ def branch(
             "wing.root.x.",
         ),
     ],
-    start: Annotated[float, typer.Option("--from", metavar="X", help="Where the branch starts.")],
+    start: Annotated[
+        float,
+        typer.Option(
+            "--from",
+            metavar="X",
+            help="Where the branch starts.",
+            callback=number("--from", -_LARGEST, _LARGEST, "no value of a bird is larger"),
+        ),
+    ],
     stop: Annotated[
         float,
-        typer.Option("--to", metavar="X", help="Which way it goes, and the end of the range."),
+        typer.Option(
+            "--to",
+            metavar="X",
+            help="Which way it goes, and the end of the range.",
+            callback=number("--to", -_LARGEST, _LARGEST, "no value of a bird is larger"),
+        ),
     ],
     model: ModelChoice = ModelName.MULTIBODY,
     assignments: Assignments = None,
@@ -200,7 +219,7 @@ def branch(
     longest_step: Annotated[
         float,
         typer.Option(
-            min=1e-6,
+            callback=number("--longest-step", 1e-6, 10.0, "1 is about the whole range"),
             metavar="X",
             help="Longest step along the branch, in parameter ranges and typical sizes of states.",
         ),
@@ -209,6 +228,7 @@ def branch(
         int | None,
         typer.Option(
             min=4,
+            max=MOST_STEPS,
             metavar="N",
             help="Integration steps per wingbeat.",
             show_default="the most the model chooses over the range",

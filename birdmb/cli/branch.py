@@ -10,8 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from rich.console import Console
 
+from birdmb.cli.console import messages, output
+from birdmb.cli.drawing import plain_style
 from birdmb.cli.files import prepare, write_figure
 from birdmb.cli.interrupt import tidied
 from birdmb.cli.outcome import InputError, SearchFailed
@@ -31,6 +32,7 @@ from birdmb.provenance import software
 from birdmb.studies.branch import bird_branch
 
 if TYPE_CHECKING:
+    from rich.console import Console
     from rich.table import Table
 
     from birdmb.orbits import Branch
@@ -72,12 +74,10 @@ def run(
     as_json: bool,
 ) -> None:
     """Follow the branch, report it on standard output, keep it in `store`, draw it into `out`."""
-    if not 0 < wanted.tolerance < np.inf:
-        raise InputError(f"--tolerance must be positive, not {wanted.tolerance:g}.")
     directories = _prepared(out, store)
     if store is None and out is not None:
         store = out / "branch.nc"
-    progress = Progress(Console(stderr=True))
+    progress = Progress(messages())
     kept = _kept(store, resume, progress)
 
     def tidy() -> None:
@@ -90,7 +90,10 @@ def run(
     # What libraries print on the way, as Exudyn does, is no result.
     with tidied(tidy), redirect_stdout(sys.stderr), progress.shown():
         branch = _followed(bird, wanted, kept, store, progress)
-        written = [] if store is None else [store]
+    if not as_json:
+        _report(output(), branch)
+    written = [] if store is None else [store]
+    with tidied(tidy), redirect_stdout(sys.stderr), progress.shown(), plain_style():
         if out is not None:
             from birdmb.studies.branch_figure import plot_bird_branch  # noqa: PLC0415 - takes time
 
@@ -101,7 +104,6 @@ def run(
         json.dump(found, sys.stdout, allow_nan=False, indent=2)
         sys.stdout.write("\n")
         return
-    _report(Console(markup=False), branch)
     for path in written:
         progress.line(f"wrote {path}")
 

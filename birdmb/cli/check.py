@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from rich.console import Console
 from rich.table import Table
 
 from birdmb.aerodynamics.body_drag import body_drag, body_drag_force
 from birdmb.aerodynamics.tail import tail_surface
+from birdmb.cli.console import messages, output
 from birdmb.cli.inertia import Spring, hinge_springs, spring_of
 from birdmb.cli.progress import Progress
 from birdmb.cli.report import table_of
@@ -22,7 +22,7 @@ _DRAG_SPEED = 10.0  # m/s
 
 def run(bird: Bird) -> None:
     """Print what a bird is, and warnings."""
-    progress = Progress(Console(stderr=True))
+    progress = Progress(messages())
     with progress.shown():
         progress.doing("measuring the wing")
         tables = [_bird(bird), _segments(bird), _joints(bird)]
@@ -36,7 +36,7 @@ def run(bird: Bird) -> None:
         if change is not None:
             tables.insert(1, _loads(bird, change))
             warnings += warnings_on_loads(change)
-    console = Console()
+    console = output()
     for table in tables:
         console.print()
         console.print(table)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
@@ -12,14 +11,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 import typer
-from rich.console import Console
 
+from birdmb.cli.console import messages, output
+from birdmb.cli.drawing import plain_style
 from birdmb.cli.files import prepare, write_results
 from birdmb.cli.interrupt import tidied
-from birdmb.cli.outcome import NO_CYCLE, InputError, SearchFailed
+from birdmb.cli.outcome import NO_CYCLE, ResultUnwrittenError, SearchFailed
 from birdmb.cli.progress import Progress
 from birdmb.cli.report import print_report
 from birdmb.cli.results import finite, result_object, taken_as_prescribed
+from birdmb.errors import OutputError
 from birdmb.files import remove_drafts
 from birdmb.orbits import ConvergenceError, find_limit_cycle
 from birdmb.studies import assess_validity
@@ -46,11 +47,9 @@ class Search:
 
 def run(bird: Bird, search: Search, *, out: Path | None, as_json: bool) -> None:
     """Find the limit cycle, report it on standard output and write it into `out`."""
-    if not 0 < search.tolerance < math.inf:
-        raise InputError(f"--tolerance must be positive, not {search.tolerance:g}.")
     if out is not None:
         prepare(out)
-    progress = Progress(Console(stderr=True))
+    progress = Progress(messages())
 
     def tidy() -> None:
         progress.stop()
@@ -62,14 +61,21 @@ def run(bird: Bird, search: Search, *, out: Path | None, as_json: bool) -> None:
         progress.doing("loads and power over the beat")
         validity = assess_validity(cycle)
         found = result_object(cycle, validity, search.model)
-        written = [] if out is None else write_results(cycle, out, progress)
+    if not as_json:
+        print_report(output(), cycle, validity)
+    written: list[Path] = []
+    if out is not None:
+        try:
+            with tidied(tidy), _only_results_on_stdout(), progress.shown(), plain_style():
+                written = write_results(cycle, out, progress)
+        except OutputError as error:
+            raise ResultUnwrittenError(str(error), found) from error
     if as_json:
         json.dump(
             {**found, "files": list(map(str, written))}, sys.stdout, allow_nan=False, indent=2
         )
         sys.stdout.write("\n")
     else:
-        print_report(Console(), cycle, validity)
         for path in written:
             progress.line(f"wrote {path}")
     if cycle.why_no_flight is not None:

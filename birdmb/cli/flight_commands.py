@@ -13,6 +13,7 @@ from birdmb.cli.options import (
     Speed,
     Topology,
     Workers,
+    number,
 )
 from birdmb.cli.outcome import reported
 
@@ -112,7 +113,14 @@ def tail_study(
     )
 )
 def scale(
-    mass: Annotated[float, typer.Option(metavar="KG", help="Mass of the whole bird, kg.")],
+    mass: Annotated[
+        float,
+        typer.Option(
+            metavar="KG",
+            help="Mass of the whole bird, kg.",
+            callback=number("--mass", 1e-9, 1e5, "it is in kg, and the laws are those of birds"),
+        ),
+    ],
     topology: Annotated[
         Path | None,
         typer.Option(

@@ -1,10 +1,15 @@
 """Arguments and options that several commands share."""
 
+from collections.abc import Callable
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
 import typer
+
+from birdmb.cli.outcome import InputError, reported
+
+MOST_STEPS = 10_000  # per wingbeat; the tables of a beat fill the memory
 
 
 class ModelName(StrEnum):
@@ -19,6 +24,23 @@ class Method(StrEnum):
 
     NEWTON = "newton"
     LEVENBERG_MARQUARDT = "levenberg-marquardt"
+
+
+def number(
+    option: str, low: float, high: float, why: str
+) -> Callable[[float | None], float | None]:
+    """A callback of an option whose number must be from `low` to `high`, for the reason `why`.
+
+    Typer's own ranges let nan through.
+    """
+
+    def check(value: float | None) -> float | None:
+        with reported():
+            if value is not None and not low <= value <= high:
+                raise InputError(f"{option} must be {low:g} to {high:g}, not {value:g}: {why}.")
+        return value
+
+    return check
 
 
 Topology = Annotated[Path, typer.Argument(help="Topology file of the bird (TOML).")]
@@ -37,19 +59,30 @@ ModelChoice = Annotated[
 Segments = Annotated[
     int,
     typer.Option(
-        min=1, metavar="N", help="Shooting segments; more tame strongly unstable flights."
+        min=1,
+        max=128,  # as many as a beat has integration steps
+        metavar="N",
+        help="Shooting segments; more tame strongly unstable flights.",
     ),
 ]
 Tolerance = Annotated[
     float,
     typer.Option(
-        metavar="X", help="Closure error accepted, in units of the states' typical sizes."
+        metavar="X",
+        help="Closure error accepted, in units of the states' typical sizes.",
+        callback=number(
+            "--tolerance",
+            1e-15,
+            1e-2,
+            "a flight that closes no better is no limit cycle, and round-off is not undercut",
+        ),
     ),
 ]
 StepsPerBeat = Annotated[
     int | None,
     typer.Option(
         min=4,
+        max=MOST_STEPS,
         metavar="N",
         help="Integration steps per wingbeat.",
         show_default="the model chooses",
@@ -58,14 +91,30 @@ StepsPerBeat = Annotated[
 Json = Annotated[
     bool, typer.Option("--json", help="Print one JSON object to standard output, no tables.")
 ]
-ClimbRate = Annotated[float, typer.Option(metavar="V", help="Climb rate to trim to, m/s.")]
+ClimbRate = Annotated[
+    float,
+    typer.Option(
+        metavar="V",
+        help="Climb rate to trim to, m/s.",
+        callback=number("--climb-rate", -1e3, 1e3, "no bird is as fast"),
+    ),
+]
 Speed = Annotated[
     float | None,
-    typer.Option(metavar="V", help="Speed to trim to, m/s.", show_default="any"),
+    typer.Option(
+        metavar="V",
+        help="Speed to trim to, m/s.",
+        show_default="any",
+        callback=number("--speed", 1e-3, 1e3, "a bird flies forwards, and no faster"),
+    ),
 ]
 Workers = Annotated[
     int | None,
     typer.Option(
-        min=1, metavar="N", help="Processes that compute.", show_default="one for each core"
+        min=1,
+        max=1024,
+        metavar="N",
+        help="Processes that compute.",
+        show_default="one for each core",
     ),
 ]

@@ -19,8 +19,8 @@ class InputError(BirdmbError):
     """The command line asks for something that cannot be done."""
 
 
-class SearchFailed(BirdmbError):  # noqa: N818 - it reports an outcome
-    """The search found no limit cycle; `reached` is what it had, fit for JSON."""
+class _WithReached(BirdmbError):  # noqa: N818 - what it is for is in the names below
+    """An error that keeps what was reached in `reached`, fit for JSON."""
 
     def __init__(self, message: str, reached: dict[str, object]) -> None:
         super().__init__(message, reached)
@@ -29,6 +29,14 @@ class SearchFailed(BirdmbError):  # noqa: N818 - it reports an outcome
     def __str__(self) -> str:
         """The sentence alone."""
         return str(self.args[0])
+
+
+class SearchFailed(_WithReached):
+    """The search found no limit cycle; `reached` is what it had."""
+
+
+class ResultUnwrittenError(_WithReached, InputError):
+    """A file could not be written; `reached` is the result that it was for."""
 
 
 @contextmanager
@@ -43,11 +51,16 @@ def reported(*, as_json: bool = False) -> Iterator[None]:
     except KeyboardInterrupt:
         typer.echo(INTERRUPTED_LINE, err=True)
         raise typer.Exit(INTERRUPTED) from None
+    except OSError as error:
+        if error.filename is None:  # of a standard stream
+            raise
+        typer.echo(f"Error: {error.filename}: {(error.strerror or str(error)).lower()}.", err=True)
+        raise typer.Exit(BAD_INPUT) from None
     except BirdmbError as error:
         sentence = " ".join(str(error).split())  # arrays in it may have been broken over lines
         typer.echo(f"Error: {sentence}", err=True)
         if as_json:
-            reached = error.reached if isinstance(error, SearchFailed) else {}
+            reached = error.reached if isinstance(error, _WithReached) else {}
             json.dump({"error": sentence, **reached}, sys.stdout, indent=2, allow_nan=False)
             typer.echo()
         raise typer.Exit(_status(error)) from None

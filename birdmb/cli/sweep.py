@@ -13,6 +13,7 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, SpinnerColumn, TextColumn
 
+from birdmb.cli.console import messages
 from birdmb.models import MultibodyModel, RigidModel
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.relevance import ignored_values
@@ -37,7 +38,7 @@ def run(
     """Fill the store, with progress on standard error, and say what it holds."""
     kind = RigidModel if model == "rigid" else MultibodyModel
     bound = kind if steps_per_beat is None else partial(kind, steps_per_beat=steps_per_beat)
-    with SweepProgress(Console(stderr=True), ignored_springs(bird, bound)) as progress:
+    with SweepProgress(messages(), ignored_springs(bird, bound)) as progress:
         study = sweep(
             bird,
             variations,

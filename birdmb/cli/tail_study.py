@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import typer
-from rich.console import Console
+import xarray as xr
 
+from birdmb.cli.console import messages
+from birdmb.cli.drawing import plain_style
 from birdmb.cli.files import prepare, reject_overwriting, write_dataset, write_figure
 from birdmb.cli.progress import Progress
 from birdmb.cli.sweep import SweepProgress, ignored_springs
@@ -30,6 +33,9 @@ from birdmb.studies.tail_figures import (
 from birdmb.studies.validity import LARGEST_TAIL_ANGLE
 from birdmb.topology import Bird
 
+if TYPE_CHECKING:
+    from rich.console import Console
+
 _CURVES = 4
 
 
@@ -38,7 +44,7 @@ def run(bird: Bird, store: Path, *, every: int, workers: int | None, out: Path |
     if out is not None:
         prepare(out)
         reject_overwriting(store, out, [f"{store.stem}.nc"])
-    console = Console(stderr=True)
+    console = messages()
     with SweepProgress(console, ignored_springs(bird, RigidModel)) as progress:
         study = tail_study(bird, store, every=every, workers=workers, on_point=progress.update)
     data = study.to_xarray(timings=True)
@@ -63,8 +69,13 @@ def run(bird: Bird, store: Path, *, every: int, workers: int | None, out: Path |
     )
     for row in price_of_stability(data):
         typer.echo(_priced(row))
-    if out is None:
-        return
+    if out is not None:
+        with plain_style():
+            _draw(bird, data, store, out, console)
+
+
+def _draw(bird: Bird, data: xr.Dataset, store: Path, out: Path, console: Console) -> None:
+    """Write figures and dataset, and say at which openings flight becomes stable."""
     figures = {
         "manifold": plot_manifold(data),
         "envelope": plot_envelope(data),

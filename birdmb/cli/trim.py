@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import cast
 
 import typer
-from rich.console import Console
 
+from birdmb.cli.console import messages
 from birdmb.cli.progress import Progress
 from birdmb.cli.results import taken_as_prescribed, verdict_sentence
 from birdmb.models import MultibodyModel, RigidModel, WingModel
@@ -28,7 +28,7 @@ def run(
     out: Path | None,
 ) -> None:
     """Trim, and say to what, by which values, and how it flies then."""
-    progress = Progress(Console(stderr=True))
+    progress = Progress(messages())
     with progress.shown():
         progress.doing("trimming the flight")
         found = trim_flight(

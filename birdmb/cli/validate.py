@@ -6,6 +6,7 @@ from pathlib import Path
 
 from rich.console import Console
 
+from birdmb.cli.console import messages, output
 from birdmb.cli.outcome import InputError
 from birdmb.cli.progress import Progress
 from birdmb.cli.report import table_of
@@ -19,7 +20,7 @@ def run(topologies: Path) -> None:
             f"{topologies}: no ibis.toml here; name the directory of the shipped topologies with "
             "--topologies."
         )
-    console, progress = Console(), Progress(Console(stderr=True))
+    console, progress = output(), Progress(messages())
     cases = published_cases(topologies)
     with progress.shown():
         progress.line(f"computing {len(cases)} published cases")

@@ -1,21 +1,22 @@
 """What of a bird meets the air besides its lifting line: the tail, and the drags."""
 
 import math
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, StrictBool, field_validator
 
 from birdmb.topology.messages import problem
-from birdmb.topology.parts import NonNegative, Number, Part, Positive
+from birdmb.topology.numbers import Angle, Area, Coefficient, Coordinate, Length
+from birdmb.topology.parts import Part
 
 
 class Apex(Part):
     """The foremost point of the tail, from the body's centre of mass in the body frame."""
 
-    x: Number = Field(
+    x: Coordinate = Field(
         description="how far the tail's apex is ahead of the centre of mass (negative: behind), m"
     )
-    z: Number = Field(default=0.0, description="how far it is below, m")
+    z: Coordinate = Field(default=0.0, description="how far it is below, m")
 
 
 class Tail(Part):
@@ -24,11 +25,11 @@ class Tail(Part):
     angles: ClassVar[tuple[str, ...]] = ("opening", "incidence")
 
     apex: Apex = Field(description="the tail's foremost point, a table of x and z in m")
-    chord: Positive = Field(description="length from the apex to the trailing edge, m")
-    opening: NonNegative = Field(
+    chord: Length = Field(description="length from the apex to the trailing edge, m")
+    opening: Annotated[Angle, Field(ge=0)] = Field(
         description="angle between its two sides, 0 if furled; rad, degrees as opening_deg"
     )
-    incidence: Number = Field(
+    incidence: Angle = Field(
         default=0.0,
         description="angle to the body's x axis, leading edge up; rad, degrees as incidence_deg",
     )
@@ -54,16 +55,16 @@ class Tail(Part):
 class Drag(Part):
     """Drag that the lifting line does not have; none unless it is asked for."""
 
-    profile_coefficient: NonNegative = Field(
+    profile_coefficient: Coefficient = Field(
         default=0.0, description="drag coefficient of the wing's sections, on their chord"
     )
     body: StrictBool = Field(default=False, description="whether the body has drag")
-    frontal_area: Positive | None = Field(
+    frontal_area: Area | None = Field(
         default=None,
         description="area that the body's drag coefficient refers to, m2; by default 0.00813 times "
         "the body's mass to the power of 2/3",
     )
-    body_coefficient: NonNegative | None = Field(
+    body_coefficient: Coefficient | None = Field(
         default=None,
         description="drag coefficient of the body; by default Maybury's, which falls with speed",
     )

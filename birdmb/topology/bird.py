@@ -11,6 +11,8 @@ from pydantic import Field, field_validator, model_validator
 from birdmb.errors import TopologyError
 from birdmb.topology.airframe import Drag, Tail
 from birdmb.topology.messages import nearest, problem, shown
+from birdmb.topology.names import Label
+from birdmb.topology.numbers import Gravity
 from birdmb.topology.parts import (
     BONES,
     Air,
@@ -18,7 +20,6 @@ from birdmb.topology.parts import (
     Feather,
     Gait,
     Joint,
-    NonNegative,
     Part,
     Segment,
     Wing,
@@ -42,8 +43,8 @@ class Bird(Part):
     `TopologyError`.
     """
 
-    name: str = Field(description="short label of the bird")
-    gravity: NonNegative = Field(default=9.81, description="gravitational acceleration, m/s2")
+    name: Label = Field(description="short label of the bird")
+    gravity: Gravity = Field(default=9.81, description="gravitational acceleration, m/s2")
     air: Air = Field(default=Air(), description="air the bird flies in, a table")
     gait: Gait = Field(description="gait, a table")
     body: Body = Field(description="body without its wings, a table")

@@ -8,6 +8,8 @@ from birdmb.errors import TopologyError
 from birdmb.topology.bird import Bird
 from birdmb.topology.messages import validated
 
+_LARGEST = 1_000_000  # bytes
+
 
 def load_bird(path: str | PathLike[str]) -> Bird:
     """Read and validate a topology file (TOML).
@@ -17,7 +19,11 @@ def load_bird(path: str | PathLike[str]) -> Bird:
     """
     origin = str(path)
     try:
-        document = tomllib.loads(Path(path).read_text(encoding="utf-8-sig"))
+        with Path(path).open("rb") as file:
+            content = file.read(_LARGEST + 1)  # not all that a device has to give
+        if len(content) > _LARGEST:
+            raise TopologyError(f"{origin}: is larger than 1 MB; a topology file has a few kB")
+        document = tomllib.loads(content.decode("utf-8-sig"))
     except OSError as error:
         reason = (error.strerror or "unknown reason").lower()
         raise TopologyError(
@@ -27,4 +33,9 @@ def load_bird(path: str | PathLike[str]) -> Bird:
         raise TopologyError(f"{origin}: is no text in UTF-8; a topology file must be") from error
     except tomllib.TOMLDecodeError as error:
         raise TopologyError(f"{origin}: is not valid TOML: {error}") from error
+    except (ValueError, RecursionError) as error:  # which the parser lets through
+        raise TopologyError(
+            f"{origin}: cannot be read as TOML; a number has thousands of digits, or brackets are "
+            "nested too deep"
+        ) from error
     return validated(Bird, document, origin)

@@ -10,6 +10,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails, PydanticCustomError
 
 from birdmb.errors import TopologyError
+from birdmb.topology.numbers import OUT_OF_RANGE
 
 Location = tuple[str | int, ...]
 ModelT = TypeVar("ModelT", bound=BaseModel)
@@ -31,6 +32,7 @@ _EXPECTED = {
     "greater_than": "must be more than {gt:g}",
     "greater_than_equal": "must be {ge:g} or more",
     "less_than_equal": "must be {le:g} or less",
+    OUT_OF_RANGE: "must be {wanted}",
 }
 
 
@@ -44,7 +46,10 @@ def problem(text: str, key: str = "") -> PydanticCustomError:
 
 def shown(value: object) -> str:
     """Return `value` as it would stand in a TOML file, cut short if it is long."""
-    text = json.dumps(value, default=str)
+    try:
+        text = json.dumps(value, default=str)
+    except (TypeError, ValueError, RecursionError):  # of thousands of digits, or brackets
+        return "what is too long to show"
     text = {"NaN": "nan", "Infinity": "inf", "-Infinity": "-inf"}.get(text, text)
     return text if len(text) <= 80 else text[:77] + "..."
 
@@ -75,10 +80,16 @@ def validated(model: type[ModelT], document: Mapping[str, Any], origin: str) -> 
     location, detail = found[0]
     more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
     key = _dotted(location, document)
-    raise TopologyError(f"{origin}: {key}: {_explanation(model, location, detail)}{more}")
+    # An angle in degrees was in radians when it was found to be wrong.
+    given = detail["input"]
+    if str(location[-1]).endswith("_deg"):
+        given = _at(location, document)
+    raise TopologyError(f"{origin}: {key}: {_explanation(model, location, detail, given)}{more}")
 
 
-def _explanation(model: type[BaseModel], location: Location, detail: ErrorDetails) -> str:
+def _explanation(
+    model: type[BaseModel], location: Location, detail: ErrorDetails, given: object
+) -> str:
     kind = detail["type"]
     if kind == "problem":
         return str(detail["ctx"]["text"])
@@ -92,7 +103,9 @@ def _explanation(model: type[BaseModel], location: Location, detail: ErrorDetail
         expected = _EXPECTED[kind].format(**detail.get("ctx", {}))
     else:
         expected = detail["msg"].replace("Input should be", "must be").replace("'", '"')
-    return f"{expected}, not {shown(detail['input'])}" + (f" ({meaning})" if meaning else "")
+    if kind == OUT_OF_RANGE:
+        meaning = f"{meaning}; {detail['ctx']['why']}"
+    return f"{expected}, not {shown(given)}" + (f" ({meaning})" if meaning else "")
 
 
 def _location(detail: ErrorDetails, document: object) -> Location:
@@ -109,6 +122,12 @@ def _location(detail: ErrorDetails, document: object) -> Location:
     if isinstance(document, Mapping) and last not in document and f"{last}_deg" in document:
         parts[-1] = f"{last}_deg"
     return tuple(parts)
+
+
+def _at(location: Location, document: object) -> object:
+    for part in location:
+        document = _inside(document, part)
+    return document
 
 
 def _inside(document: object, part: str | int) -> object:

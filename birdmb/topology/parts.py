@@ -28,19 +28,38 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from birdmb.topology.messages import BRANCH, problem, shown
+from birdmb.topology.names import Label
+from birdmb.topology.numbers import (
+    LEAST_INERTIA,
+    Angle,
+    Coordinate,
+    Density,
+    Direction,
+    Distance,
+    Fraction,
+    Frequency,
+    Inertia,
+    Length,
+    Mass,
+    MassOrNone,
+    Moment,
+    Real,
+    Share,
+    Stiffness,
+    Viscosity,
+)
+
+MOST_ELEMENTS = 1024
 
 Bone = Literal["humerus", "forearm", "hand"]
 BONES: tuple[Bone, ...] = ("humerus", "forearm", "hand")  # from the shoulder outwards
 
-# Strict: neither "4.0" nor true is a number.
-Number = Annotated[float, Strict()]
-Positive = Annotated[Number, Field(gt=0)]
-NonNegative = Annotated[Number, Field(ge=0)]
-Vector = tuple[Number, Number, Number]
-Tensor = tuple[Vector, Vector, Vector]
+_Row = tuple[Moment, Moment, Moment]
+Tensor = tuple[_Row, _Row, _Row]
 Shares = tuple[tuple[str, float], ...]
 
 _ROUND_OFF = 1e-9  # relative; inertia tensors are often typed with few digits
+_NO_DIRECTION = 1e-100  # of its square little is left
 _ALONG_THE_BONE = 1e-6  # rad; a right angle in degrees is none to the last bit
 
 
@@ -72,8 +91,8 @@ class Part(BaseModel):
 class Air(Part):
     """The air the bird flies in."""
 
-    density: NonNegative = Field(default=1.225, description="density of the air, kg/m3")
-    kinematic_viscosity: Positive = Field(
+    density: Density = Field(default=1.225, description="density of the air, kg/m3")
+    kinematic_viscosity: Viscosity = Field(
         default=1.5e-5, description="viscosity over density, m2/s; friction of tail and body"
     )
 
@@ -81,14 +100,14 @@ class Air(Part):
 class Gait(Part):
     """What all joint drivers have in common."""
 
-    frequency: Positive = Field(description="wingbeats per second, Hz")
+    frequency: Frequency = Field(description="wingbeats per second, Hz")
 
 
 class Body(Part):
     """The body without its wings."""
 
-    mass: Positive = Field(description="mass of the body without its wings, kg")
-    inertia_yy: Positive = Field(
+    mass: Mass = Field(description="mass of the body without its wings, kg")
+    inertia_yy: Inertia = Field(
         description="pitch moment of inertia about the body's centre of mass, kg m2"
     )
 
@@ -99,10 +118,10 @@ class Discretisation(Part):
     scheme: Literal["orthogonal", "one-step"] = Field(
         description="construction of the lifting line: orthogonal, or one-step as published"
     )
-    elements: Annotated[int, Strict(), Field(ge=2)] = Field(
-        description="elements per wing, 2 or more"
+    elements: Annotated[int, Strict(), Field(ge=2, le=MOST_ELEMENTS)] = Field(
+        description="elements per wing, 2 or more; memory and time grow with their square and cube"
     )
-    rounding: Annotated[Number, Field(gt=0, le=1)] = Field(
+    rounding: Fraction = Field(
         description="rounding of the edges' corners, a fraction above 0 up to 1"
     )
 
@@ -138,21 +157,21 @@ def _kind_of_discretisation(value: object) -> str | None:
 class Root(Part):
     """The right shoulder joint, from the body's centre of mass in the body frame."""
 
-    x: Number = Field(description="how far the shoulder is ahead of the centre of mass, m")
-    y: NonNegative = Field(description="how far the shoulder is to the right, m")
-    z: Number = Field(default=0.0, description="how far the shoulder is below, m")
+    x: Coordinate = Field(description="how far the shoulder is ahead of the centre of mass, m")
+    y: Distance = Field(description="how far the shoulder is to the right, m")
+    z: Coordinate = Field(default=0.0, description="how far the shoulder is below, m")
 
 
 class Wing(Part):
     """Where the wing is attached, how thick it is and how finely it is computed."""
 
     root: Root = Field(description="position of the right shoulder, a table of x, y and z in m")
-    half_thickness: NonNegative = Field(
+    half_thickness: Distance = Field(
         description="distance of the leading edge and of the feather roots from the bones, m"
     )
     discretisation: Annotated[
         Annotated[str, AfterValidator(_known_preset), Tag(f"{BRANCH}preset")]
-        | Annotated[int, Field(ge=2), Tag(f"{BRANCH}elements")]
+        | Annotated[int, Field(ge=2, le=MOST_ELEMENTS), Tag(f"{BRANCH}elements")]
         | Annotated[Discretisation, Tag(f"{BRANCH}table")],
         Discriminator(
             _kind_of_discretisation, custom_error_type="choice", custom_error_message=_CHOICE
@@ -182,6 +201,10 @@ def _possible_inertia(inertia: Tensor) -> Tensor:
     round_off = _ROUND_OFF * np.abs(tensor).max()
     if np.abs(tensor - tensor.T).max() > round_off:
         raise problem(f"{shown(inertia)} is not symmetric; an inertia tensor must be")
+    if 0 < np.abs(tensor).max() < LEAST_INERTIA:
+        raise problem(
+            f"{shown(inertia)} kg m2 is next to nothing; 0 makes the segment a point mass"
+        )
     moments = np.linalg.eigvalsh(tensor)[::-1]
     listed = ", ".join(f"{moment:.6g}" for moment in moments)
     if moments[-1] < -round_off:
@@ -197,15 +220,15 @@ def _possible_inertia(inertia: Tensor) -> Tensor:
 class Segment(Part):
     """A rigid segment of the wing; zero inertia makes it a point mass."""
 
-    length: Positive = Field(description="length of the bone, m")
-    mass: NonNegative = Field(description="mass of the segment of one wing, kg")
+    length: Length = Field(description="length of the bone, m")
+    mass: MassOrNone = Field(description="mass of the segment of one wing, kg")
     inertia: Annotated[
         Tensor, BeforeValidator(_from_diagonal), AfterValidator(_possible_inertia)
     ] = Field(
         description="inertia about the segment's centre of mass, kg m2: three moments about "
         "x, y, z or a 3x3 tensor"
     )
-    centre_of_mass: Vector = Field(
+    centre_of_mass: tuple[Coordinate, Coordinate, Coordinate] = Field(
         default_factory=lambda validated: (0.0, validated["length"] / 2, 0.0),
         description="centre of mass from the segment's root, [x, y, z] in m",
     )
@@ -221,24 +244,26 @@ class Joint(Part):
 
     angles: ClassVar[tuple[str, ...]] = ("offset", "amplitude", "phase")
 
-    name: str = Field(description='name of the joint, "place.motion" such as "shoulder.flap"')
+    name: Label = Field(description='name of the joint, "place.motion" such as "shoulder.flap"')
     segment: Bone = Field(description="segment that the joint carries")
-    axis: Vector = Field(description="direction of the axis, [x, y, z] in the parent's frame")
+    axis: tuple[Direction, Direction, Direction] = Field(
+        description="direction of the axis, [x, y, z] in the parent's frame"
+    )
     mode: Literal["prescribed", "compliant"] = Field(
         default="prescribed", description="whether the joint follows its driver or a spring"
     )
-    stiffness: NonNegative | None = Field(default=None, description="joint stiffness, N m/rad")
-    damping: NonNegative | None = Field(default=None, description="joint damping, N m s/rad")
-    cubic_stiffness: NonNegative = Field(
+    stiffness: Stiffness | None = Field(default=None, description="joint stiffness, N m/rad")
+    damping: Stiffness | None = Field(default=None, description="joint damping, N m s/rad")
+    cubic_stiffness: Stiffness = Field(
         default=0.0, description="stiffening with the cube of the deflection, N m/rad^3"
     )
-    stiffness_below: NonNegative | None = Field(
+    stiffness_below: Stiffness | None = Field(
         default=None,
         description="stiffness where the joint is below its driver, N m/rad, if another than above",
     )
-    offset: Number = Field(default=0.0, description="mean angle; rad, degrees as offset_deg")
-    amplitude: Number = Field(default=0.0, description="amplitude; rad, degrees as amplitude_deg")
-    phase: Number = Field(default=0.0, description="phase at t = 0; rad, degrees as phase_deg")
+    offset: Angle = Field(default=0.0, description="mean angle; rad, degrees as offset_deg")
+    amplitude: Angle = Field(default=0.0, description="amplitude; rad, degrees as amplitude_deg")
+    phase: Angle = Field(default=0.0, description="phase at t = 0; rad, degrees as phase_deg")
     twist: StrictBool = Field(
         default=False, description="whether the angle grows along the segment from none at its root"
     )
@@ -255,10 +280,11 @@ class Joint(Part):
 
     @field_validator("axis")
     @classmethod
-    def _unit_axis(cls, axis: Vector) -> Vector:
+    def _unit_axis(cls, axis: tuple[float, float, float]) -> tuple[float, float, float]:
         length = math.hypot(*axis)
-        if length == 0:
-            raise problem("[0, 0, 0] has no direction; for instance [0, 1, 0] is outwards")
+        if length < _NO_DIRECTION:
+            given = ", ".join(f"{component:g}" for component in axis)
+            raise problem(f"[{given}] has no direction; for instance [0, 1, 0] is outwards")
         if abs(length - 1) < 1e-12:  # so that an axis read back stays the same to the last bit
             return axis
         x, y, z = (component / length for component in axis)
@@ -273,7 +299,7 @@ class Joint(Part):
 
 
 _SHARES: TypeAdapter[dict[str, float]] = TypeAdapter(
-    dict[str, Number], config=ConfigDict(allow_inf_nan=False)
+    dict[str, Share], config=ConfigDict(allow_inf_nan=False)
 )
 
 
@@ -290,10 +316,10 @@ class Hinge(Part):
 
     angles: ClassVar[tuple[str, ...]] = ("rest",)
 
-    stiffness: NonNegative = Field(description="stiffness of the hinge, N m/rad")
-    damping: NonNegative = Field(description="damping of the hinge, N m s/rad")
-    mass: Positive = Field(description="mass of the feather, spread evenly along it, kg")
-    rest: Number = Field(
+    stiffness: Stiffness = Field(description="stiffness of the hinge, N m/rad")
+    damping: Stiffness = Field(description="damping of the hinge, N m s/rad")
+    mass: Mass = Field(description="mass of the feather, spread evenly along it, kg")
+    rest: Angle = Field(
         default=0.0,
         description="angle at which the spring is slack, leading edge up; rad, degrees as rest_deg",
     )
@@ -304,13 +330,13 @@ class Feather(Part):
 
     angles: ClassVar[tuple[str, ...]] = ("rest_angle",)
 
-    name: str = Field(description='name of the feather, such as "1"', pattern=r"^[\w-]+$")
+    name: Label = Field(description='name of the feather, such as "1"', pattern=r"^[\w-]+$")
     bone: Bone = Field(description="bone that the feather is rooted on")
-    position: Annotated[NonNegative, Field(le=1)] = Field(
+    position: Annotated[Real, Field(ge=0, le=1)] = Field(
         description="place of the root along the bone, 0 at its root to 1 at its end"
     )
-    length: Positive = Field(description="length of the feather, m")
-    rest_angle: Number = Field(
+    length: Length = Field(description="length of the feather, m")
+    rest_angle: Angle = Field(
         default=0.0,
         description="angle outwards from straight aft; rad, degrees as rest_angle_deg",
     )

@@ -27,9 +27,15 @@ def parse_assignment(text: str) -> tuple[str, Any]:
     if not (name and equals and value):
         raise TopologyError(f"{shown(text)} must read NAME=VALUE, for instance body.mass=1.3")
     try:
-        return name, tomllib.loads(f"value = {value}")["value"]
-    except tomllib.TOMLDecodeError:
+        document = tomllib.loads(f"value = {value}")
+    except (ValueError, RecursionError):  # the latter of a thousand brackets
         return name, value
+    if len(document) > 1:
+        raise TopologyError(
+            f"{shown(text)} must read NAME=VALUE; what follows on another line needs a --set of "
+            "its own"
+        )
+    return name, document["value"]
 
 
 def named_places(bird: "Bird") -> dict[str, Location]:

@@ -88,7 +88,7 @@ def test_an_unknown_option(run):
 def test_a_tolerance_of_nothing(run):
     result = run("cycle", IBIS, "--tolerance", "0")
     assert result.exit_code == 2
-    assert "--tolerance must be positive, not 0" in sentence(result)
+    assert "--tolerance must be 1e-15 to 0.01, not 0" in sentence(result)
 
 
 @pytest.mark.parametrize("place", ["file", "file/below"])

@@ -1,6 +1,7 @@
 """Whatever is wrong with a file is told in one sentence: file, key, value, what would be right."""
 
 import tomllib
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -335,6 +336,45 @@ def test_toml_syntax(tmp_path, monkeypatch):
         "ibis.toml: is not valid TOML: Expected '=' after a key in a key/value pair "
         "(at line 2, column 9)"
     )
+
+
+# What a file holds, and what the sentence must say.
+BAD_FILES = {
+    "UTF-16": ("name = 1".encode("utf-16"), "is no text in UTF-8"),
+    "NUL": (b"name = \0", "is not valid TOML"),
+    "digits": (b"gravity = " + b"9" * 5000, "a number has thousands of digits"),
+    "brackets": (b"name = " + b"[" * 100_000, "brackets are nested too deep"),
+    "tables": (b"name = " + b"{a=" * 100_000, "brackets are nested too deep"),
+    "large": (b"#" * 1_000_001, "is larger than 1 MB"),
+    "key twice": (b"name = 1\nname = 2", "is not valid TOML"),
+    "dotted keys in conflict": (b"air = 1\nair.density = 2", "is not valid TOML"),
+    "no date": (b"name = 2026-13-45", "is not valid TOML"),
+    "empty": (b"", "name: missing"),
+    "hexadecimal digits": (IBIS.replace("9.81", "0x" + "f" * 5000).encode(), "gravity: must be"),
+}
+
+
+@pytest.mark.parametrize(("content", "says"), BAD_FILES.values(), ids=BAD_FILES)
+def test_bad_files(tmp_path, content, says):
+    path = tmp_path / "bird.toml"
+    path.write_bytes(content)
+    with pytest.raises(TopologyError) as caught:
+        load_bird(path)
+    assert str(caught.value).startswith(f"{path}: ")
+    assert says in str(caught.value)
+    assert len(str(caught.value)) < 500
+
+
+def test_a_mark_of_byte_order_is_no_mistake(tmp_path):
+    path = tmp_path / "bird.toml"
+    path.write_bytes(b"\xef\xbb\xbf" + IBIS.encode())
+    assert load_bird(path).name == "ibis"
+
+
+@pytest.mark.skipif(not Path("/dev/zero").exists(), reason="reads /dev/zero")
+def test_a_file_without_an_end():
+    with pytest.raises(TopologyError, match="is larger than 1 MB"):
+        load_bird("/dev/zero")
 
 
 def test_not_a_text(tmp_path, monkeypatch):

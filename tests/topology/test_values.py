@@ -240,6 +240,21 @@ WRONG = {
         "ibis (with wrist.sweep.offset = 1, wrist.sweep.offset_deg = 2): wrist.sweep.offset_deg: "
         "given twice, as offset and offset_deg; keep one",
     ),
+    "assignment on two lines": (
+        lambda _: parse_assignment("body.mass=1.3\nname=2"),
+        '"body.mass=1.3\\nname=2" must read NAME=VALUE; what follows on another line needs a --set '
+        "of its own",
+    ),
+    "assignment and a table": (
+        lambda _: parse_assignment("body.mass=1.3\n[air]"),
+        '"body.mass=1.3\\n[air]" must read NAME=VALUE; what follows on another line needs a --set '
+        "of its own",
+    ),
+    "assignment of too many digits": (
+        lambda bird: bird.with_values(dict([parse_assignment(f"body.mass={'9' * 5000}")])),
+        f'ibis (with body.mass = "{"9" * 76}...): body.mass: must be a number, not '
+        f'"{"9" * 76}... (mass of the body without its wings, kg)',
+    ),
     "assignment": (
         lambda _: parse_assignment("body.mass"),
         '"body.mass" must read NAME=VALUE, for instance body.mass=1.3',
@@ -265,6 +280,9 @@ def test_sentence(ibis, do, sentence):
         ("segments.hand.inertia=[1, 2, 2]", ("segments.hand.inertia", [1, 2, 2])),
         ('feathers.3.shares={"wrist.sweep" = 1}', ("feathers.3.shares", {"wrist.sweep": 1})),
         ("body.mass=1,3", ("body.mass", "1,3")),
+        ("body.mass=1.3 # kg", ("body.mass", 1.3)),
+        ("shoulder.flap.axis=[1,\n0, 0]", ("shoulder.flap.axis", [1, 0, 0])),
+        ("name=" + 2000 * "[", ("name", 2000 * "[")),
     ],
 )
 def test_assignment(text, expected):

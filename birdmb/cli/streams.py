@@ -1,0 +1,68 @@
+"""Standard output and error as they may be: not in UTF-8, closed, full, or read by nobody."""
+
+import codecs
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+
+from birdmb.cli.outcome import BAD_INPUT
+
+_SPELLED_OUT = {
+    "Λ": "Lambda",
+    "Γ": "Gamma",
+    "θ": "theta",
+    "°": "deg",
+    "±": "+-",
+    "−": "-",
+    "×": "x",
+    "²": "2",
+    "≤": "<=",
+    "…": "...",
+}
+_NOBODY_READS = 141  # as a shell reports the signal that usually ends a program then
+
+
+@contextmanager
+def standard_streams() -> Iterator[None]:
+    """Write to the standard streams within whatever they are.
+
+    A character that their encoding lacks is spelled out. What is written to a closed one is lost;
+    one that cannot be written ends the process with a sentence, and silently if nobody reads on.
+    """
+    codecs.register_error("spelled out", _spelled_out)
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115, PTH123
+        getattr(sys, name).reconfigure(errors="spelled out")
+    try:
+        try:
+            yield
+        finally:
+            sys.stdout.flush()
+    except BrokenPipeError:
+        _discard_what_is_left()
+        raise SystemExit(_NOBODY_READS) from None
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        with suppress(OSError):  # standard error may be what is full
+            sys.stderr.write(
+                f"Error: {error.filename or 'standard output'} cannot be written ({reason}).\n"
+            )
+        _discard_what_is_left()
+        raise SystemExit(BAD_INPUT) from None
+
+
+def _spelled_out(error: UnicodeError) -> tuple[str, int]:
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    lacking = error.object[error.start : error.end]
+    return "".join(_SPELLED_OUT.get(character, "?") for character in lacking), error.end
+
+
+def _discard_what_is_left() -> None:
+    """Keep Python from trying once more, in vain, when it closes the streams."""
+    null = os.open(os.devnull, os.O_WRONLY)
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(OSError, ValueError):
+            os.dup2(null, stream.fileno())
