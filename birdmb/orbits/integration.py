@@ -55,6 +55,9 @@ class Integration:
         values[:filled] = start
         # A solution that runs away overflows before the integrator gives up; StateError says it.
         with np.errstate(all="ignore"):
+            # scipy seeks a first step for ever where the first rate is no number.
+            if not np.isfinite(function(t0, start)).all():
+                raise StateError(f"The right-hand side at the start, t = {t0:.6g}, is not finite.")
             solver = SOLVERS[self.integrator](function, t0, start, t1, rtol=self.rtol, atol=atol)
             for _ in range(self.most_steps):
                 if filled == len(at):
