@@ -208,8 +208,8 @@ def _at_modulus(
     """
 
     def excess(point: BranchPoint) -> float:
-        values, errors = sorted_excess(point, neutral)
-        return float(values[place] - leaving * errors[place])
+        value, error = _excess_at(place, point, neutral)
+        return value - min(error, 1.0) if leaving else value
 
     distance, width = chord.root(excess, low, high)
     point = chord.at(distance)
@@ -218,9 +218,21 @@ def _at_modulus(
     near = away[list(order)] <= point.multiplier_errors[list(order)] + _ON_CIRCLE
     staying = neutral.circle + (point.trivial_index is not None)
     size = max(1, int(near[: len(near) - staying].sum()))
-    ends = (float(sorted_excess(end, neutral)[0][place]) for end in (chord.before, chord.after))
-    error = width + _spread(chord, float(sorted_excess(point, neutral)[1][place]), *ends)
+    ends = (_excess_at(place, end, neutral)[0] for end in (chord.before, chord.after))
+    error = width + _spread(chord, _excess_at(place, point, neutral)[1], *ends)
     return _Event(distance, point, None, order, size, error)
+
+
+def _excess_at(place: int, point: BranchPoint, neutral: Neutral) -> tuple[float, float]:
+    """Modulus less 1 at a place in the order of moduli, and its error bound.
+
+    Where the orbit all but stands still, one multiplier more or less is the trivial one.
+    """
+    values, errors = sorted_excess(point, neutral)
+    if not len(values):
+        return 0.0, 0.0
+    place = min(place, len(values) - 1)
+    return float(values[place]), float(errors[place])
 
 
 def _nearest(point: BranchPoint, centre: float) -> float:
@@ -271,13 +283,17 @@ def _staying(point: BranchPoint, before: BranchPoint, neutral: Neutral) -> list[
 def _counts_between(
     chord: Chord, events: list[_Event], outside: frozenset[int], neutral: Neutral
 ) -> list[frozenset[int]]:
-    """Possible numbers outside before, between and after the events; empty where none is."""
+    """Possible numbers outside before, between and after the events.
+
+    Where nothing fits, as with error bounds that are too small, the numbers at the chord's end.
+    """
+    last = counts_outside(chord.after, neutral)
     counts = [outside]
     for event in events:
-        counts.append(event.across(counts[-1], neutral))
-    counts[-1] &= counts_outside(chord.after, neutral)
+        counts.append(event.across(counts[-1], neutral) or last)
+    counts[-1] = counts[-1] & last or last
     for i in range(len(events) - 1, -1, -1):
-        counts[i] &= events[i].across(counts[i + 1], neutral) if counts[i + 1] else counts[i]
+        counts[i] = counts[i] & events[i].across(counts[i + 1], neutral) or counts[i]
     return counts
 
 
