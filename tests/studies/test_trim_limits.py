@@ -13,7 +13,7 @@ from birdmb.studies.trim_search import Trial
 @pytest.mark.parametrize(("pitch", "steep"), [(10, False), (29, False), (31, True), (-40, True)])
 def test_a_body_that_stands_up_is_steep(pitch, steep):
     cycle = SimpleNamespace(mean_pitch=np.radians(pitch))
-    assert Trial(np.zeros(1), cycle, {}, np.zeros(1)).steep is bool(steep)
+    assert Trial(np.zeros(1), cycle, {}, np.zeros(1)).steep == steep
 
 
 @pytest.mark.parametrize(("damping", "creeps"), [(1.0, False), (0.1, False), (0.05, True)])
