@@ -27,8 +27,8 @@ _ending = threading.Event()
 
 @contextmanager
 def ending_the_process() -> Iterator[None]:
-    """End the process on Ctrl-C within; nothing is changed where Ctrl-C is ignored or handled."""
-    if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+    """End the process on Ctrl-C within; nothing is changed where Ctrl-C is ignored."""
+    if not callable(signal.getsignal(signal.SIGINT)):
         yield
         return
     receiver, sender = socket.socketpair()
