@@ -19,9 +19,14 @@ def coarse_bird():
 
 
 def logged_model(bird, log):
-    """A coarse rigid model; writes what it was asked for on a line of `log`."""
-    with Path(log).open("a") as file:
-        file.write(f"{bird.value(AMPLITUDE):.6g} {bird.value(MASS):.6g}\n")
+    """A coarse rigid model; writes what it was asked for on a line of `log`.
+
+    But for values beside those of the grid, which sensitivities ask for.
+    """
+    values = [float(f"{bird.value(name):.6g}") for name in GRID]
+    if all(value in listed for value, listed in zip(values, GRID.values(), strict=True)):
+        with Path(log).open("a") as file:
+            file.write(f"{values[0]} {values[1]}\n")
     return birdmb.RigidModel(bird, steps_per_beat=30)
 
 
