@@ -37,7 +37,7 @@ KernelT = TypeVar("KernelT", bound=Callable[..., Any])
 
 _SUFFIX = ".kernel"
 _PACKAGE = Path(__file__).parent
-config: Any = numba_config
+config: Any = numba_config  # sets its attributes when it is imported
 _DIGEST = hashlib.sha256
 _VERSIONS = (platform.python_version(), *(version(p) for p in ("numba", "llvmlite", "numpy")))
 

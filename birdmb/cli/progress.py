@@ -25,6 +25,7 @@ class Progress:
     def __init__(self, console: Console) -> None:
         self._console = console
         self._status = console.status("") if console.is_terminal else None
+        self._began = time.monotonic()
 
     @contextmanager
     def shown(self) -> Iterator[None]:
@@ -43,9 +44,9 @@ class Progress:
         self._console.print(text, style=style, highlight=False, markup=False, soft_wrap=True)
 
     def doing(self, text: str) -> None:
-        """Say what is going on now; only a terminal shows it."""
+        """Say what is going on now, with the time so far; only a terminal shows it."""
         if self._status is not None:
-            self._status.update(Text(text, style="dim"))
+            self._status.update(_Doing(text, self._began))
 
     def iteration(self, step: Iteration) -> None:
         """Write a line on an accepted step of the search."""
@@ -58,6 +59,16 @@ class Progress:
                 f"{step.damping:>9.3g}"
             )
         self.doing("searching")
+
+
+class _Doing:
+    """A line that counts the seconds whenever it is drawn: a search that takes long is not dead."""
+
+    def __init__(self, text: str, began: float) -> None:
+        self._text, self._began = text, began
+
+    def __rich__(self) -> Text:
+        return Text(f"{self._text}, {time.monotonic() - self._began:.0f} s", style="dim")
 
 
 class _Compilation(event.Listener):

@@ -104,7 +104,8 @@ def _explanation(
     else:
         expected = detail["msg"].replace("Input should be", "must be").replace("'", '"')
     if kind == OUT_OF_RANGE:
-        meaning = f"{meaning}; {detail['ctx']['why']}"
+        why = detail["ctx"]["why"]
+        meaning = f"{meaning}; {why}" if meaning else why
     return f"{expected}, not {shown(given)}" + (f" ({meaning})" if meaning else "")
 
 

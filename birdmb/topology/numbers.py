@@ -60,4 +60,7 @@ Stiffness = Annotated[
     _within(1e-40, 1e12, "a joint that hardly gives is prescribed", or_zero=True),
 ]
 Fraction = Annotated[_Positive, Field(le=1), _within(1e-6, 1.0, "0.5 is a usual one")]
+Elements = Annotated[
+    int, Strict(), Field(ge=2), _within(2, 1024, "time grows with the cube of their number")
+]
 Direction = Annotated[Real, _within(-1e6, 1e6, "only the direction counts")]

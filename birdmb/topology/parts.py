@@ -17,7 +17,6 @@ from pydantic import (
     ConfigDict,
     Discriminator,
     Field,
-    Strict,
     StrictBool,
     Tag,
     TypeAdapter,
@@ -36,6 +35,7 @@ from birdmb.topology.numbers import (
     Density,
     Direction,
     Distance,
+    Elements,
     Fraction,
     Frequency,
     Inertia,
@@ -48,8 +48,6 @@ from birdmb.topology.numbers import (
     Stiffness,
     Viscosity,
 )
-
-MOST_ELEMENTS = 1024
 
 Bone = Literal["humerus", "forearm", "hand"]
 BONES: tuple[Bone, ...] = ("humerus", "forearm", "hand")  # from the shoulder outwards
@@ -118,9 +116,7 @@ class Discretisation(Part):
     scheme: Literal["orthogonal", "one-step"] = Field(
         description="construction of the lifting line: orthogonal, or one-step as published"
     )
-    elements: Annotated[int, Strict(), Field(ge=2, le=MOST_ELEMENTS)] = Field(
-        description="elements per wing, 2 or more; memory and time grow with their square and cube"
-    )
+    elements: Elements = Field(description="elements per wing, 2 or more")
     rounding: Fraction = Field(
         description="rounding of the edges' corners, a fraction above 0 up to 1"
     )
@@ -171,7 +167,7 @@ class Wing(Part):
     )
     discretisation: Annotated[
         Annotated[str, AfterValidator(_known_preset), Tag(f"{BRANCH}preset")]
-        | Annotated[int, Field(ge=2, le=MOST_ELEMENTS), Tag(f"{BRANCH}elements")]
+        | Annotated[Elements, Tag(f"{BRANCH}elements")]
         | Annotated[Discretisation, Tag(f"{BRANCH}table")],
         Discriminator(
             _kind_of_discretisation, custom_error_type="choice", custom_error_message=_CHOICE

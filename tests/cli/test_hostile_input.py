@@ -30,7 +30,7 @@ REFUSED = {
     ),
     "mass": (("scale", "--mass", "nan"), "--mass must be 1e-09 to 100000, not nan"),
     "store": (("plot", "x" * 5000), "file name too long"),
-    "elements": (("check", IBIS, "--set", "wing.discretisation=1000000000"), "1024 or less"),
+    "elements": (("check", IBIS, "--set", "wing.discretisation=1000000000"), "must be 2 to 1024"),
     "two lines": (("check", IBIS, "--set", "body.mass=1.3\nname=2"), "must read NAME=VALUE"),
     "control characters": (("check", IBIS, "--set", r'name="a\u001b[31m"'), "control character"),
 }

@@ -1,9 +1,12 @@
 """How the command line starts, stops and talks about compiling, as a process of its own."""
 
+import io
 import os
+import re
 import signal
 import subprocess
 import sys
+import time
 from importlib.metadata import version
 from pathlib import Path
 from types import SimpleNamespace
@@ -86,6 +89,19 @@ def test_ctrl_c_while_exudyn_integrates(tmp_path):
     assert errors.splitlines()[-1] == "Interrupted."
     assert "Traceback" not in errors
     assert not list(Path(tmp_path).iterdir())
+
+
+def test_a_terminal_shows_what_is_going_on_and_for_how_long(monkeypatch):
+    shown = io.StringIO()
+    console = Console(file=shown, force_terminal=True, width=100)
+    progress = Progress(console)
+    later = SimpleNamespace(monotonic=lambda: time.monotonic() + 65.0)
+    monkeypatch.setattr("birdmb.cli.progress.time", later)
+    with progress.shown():
+        progress.doing("flying [/oops]")
+    seconds = re.search(r"flying \[/oops\], (\d+) s", shown.getvalue())
+    assert seconds is not None
+    assert int(seconds[1]) >= 65
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """Output that is not in UTF-8, closed, full or narrow, and settings of matplotlib, end nothing."""
 
+import json
 import os
 import subprocess
 import sys
@@ -8,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from birdmb.cli.console import output
+from birdmb.cli.outcome import InputError
 
 from .conftest import HANGS, IBIS, QUICK
 
@@ -88,6 +90,19 @@ def test_pictures_are_drawn_by_settings_of_their_own(tmp_path):
     assert result.returncode == 0, result.stderr
     assert b"unstable: the fastest-growing" in result.stdout
     assert (tmp_path / "out" / "overview.png").stat().st_size > 10_000
+
+
+def test_a_result_is_not_lost_with_its_files(run, monkeypatch, tmp_path):
+    def full(*_):
+        raise InputError("--out: cycle.nc cannot be written (no space left on device).")
+
+    monkeypatch.setattr("birdmb.cli.cycle.write_results", full)
+    for form in ((), ("--json",)):
+        result = run("cycle", IBIS, *QUICK, "--out", str(tmp_path), *form)
+        assert result.exit_code == 2
+        assert result.stderr.splitlines()[-1].startswith("Error: --out: cycle.nc cannot be")
+        assert "unstable" in result.stdout
+    assert json.loads(result.stdout)["error"].startswith("--out")
 
 
 def test_damaged_settings_that_matplotlib_insists_on_are_a_sentence(tmp_path):
