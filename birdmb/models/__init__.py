@@ -4,7 +4,6 @@ from birdmb.models.energy import Work
 from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import Beat, FlightCycle
 from birdmb.models.gusts import CosineGust, GaussianGust, Gust, StepGust
-from birdmb.models.inputs import ignores
 from birdmb.models.loads import Loads, TailLoads
 from birdmb.models.multibody import MultibodyModel, TetheredModel
 from birdmb.models.rigid import RigidModel
@@ -25,5 +24,4 @@ __all__ = [
     "TetheredModel",
     "WingModel",
     "Work",
-    "ignores",
 ]

@@ -11,13 +11,12 @@ from birdmb.aerodynamics.prescribed import driven
 from birdmb.errors import StateError
 from birdmb.models.compiled_calls import COMPILED, calls_compiled_code
 from birdmb.models.determinacy import refuse_undetermined
-from birdmb.models.exudyn_tree import BODY_COORDINATES, ExudynBird, bird_links, typical_inertias
+from birdmb.models.exudyn_tree import BODY_COORDINATES, ExudynBird, typical_inertias
 from birdmb.models.failures import lifting_line_lost, overflow_told, wing_misplaced
 from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.gusts import Gust
 from birdmb.models.implicit import integrate_implicitly
-from birdmb.models.inputs import flattened
 from birdmb.models.instants import Instant, Instants
 from birdmb.models.integration import Integration, Integrator, integration_for
 from birdmb.models.multibody_kernel import air_forces, body_velocity
@@ -115,12 +114,6 @@ class MultibodyModel(WingModel):
     def integration_method(self) -> Literal["explicit", "implicit"]:
         """Kind of the integration steps: implicit where joints or hinges are stiff."""
         return self.integration.method
-
-    @property
-    def inputs(self) -> tuple[object, ...]:
-        """What the flow in still air depends on; equal for models that fly alike."""
-        links = [(link.mass, link.centre, link.inertia) for link in bird_links(self.bird)]
-        return super().inputs + flattened(self._compliant, self._springs.constants, links)
 
     @property
     def has_kinks(self) -> bool:

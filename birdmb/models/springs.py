@@ -30,11 +30,6 @@ class Springs:
         self.have_two_sides = bool((self._above != self._below).any())
         self._linear = not (self._cubic.any() or self.have_two_sides)
 
-    @property
-    def constants(self) -> tuple[FloatArray, ...]:
-        """Stiffness to both sides, cubic stiffness and damping, (A,) each."""
-        return self._above, self._below, self._cubic, self._damping
-
     def torques(self, deflection: FloatArray, deflection_rate: FloatArray) -> FloatArray:
         """Torques (A,) N m at these deflections from drivers or rest (A,) rad, rad/s."""
         damper = -self._damping * deflection_rate

@@ -17,7 +17,6 @@ from birdmb.errors import StateError
 from birdmb.models.failures import lifting_line_lost, overflow_told, wing_misplaced
 from birdmb.models.flight import Flight
 from birdmb.models.gusts import Gust
-from birdmb.models.inputs import flattened
 from birdmb.models.loads import Loads, assemble_loads
 from birdmb.topology import Bird
 from birdmb.wing.arrays import wing_arrays
@@ -67,18 +66,6 @@ class WingModel(ABC):
     def integration_method(self) -> Literal["explicit", "implicit"]:
         """Kind of the integration steps."""
         return "explicit"
-
-    @property
-    def inputs(self) -> tuple[object, ...]:
-        """What the flow in still air depends on; equal for models that fly alike."""
-        bird = self.bird
-        return flattened(
-            type(self).__name__,
-            self.wing,
-            self.airframe,
-            self.discretisation,
-            (bird.period, bird.gravity, bird.body.mass, bird.body.inertia_yy),
-        )
 
     @property
     def has_kinks(self) -> bool:

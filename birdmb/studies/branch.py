@@ -23,6 +23,7 @@ from birdmb.orbits import (
     Steps,
     continue_branch,
 )
+from birdmb.studies.relevance import check_relevant
 from birdmb.studies.validity import Validity, assess_validity
 from birdmb.topology import Bird
 
@@ -96,7 +97,8 @@ def bird_branch(
 
     Raises:
         TopologyError: an unknown name, or an impossible value at the start of the range.
-        ArgumentError: the name is not that of a number, or `resume` is another branch.
+        ArgumentError: the name is not that of a number, or of one without effect, or `resume` is
+            another branch.
         OrbitError: no limit cycle at the start of the range.
         StateError: the search there could not start.
     """
@@ -104,6 +106,7 @@ def bird_branch(
     if first == last:
         raise ArgumentError(f"{name} must have two different ends, not {first:g} twice.")
     _reject_no_number(bird, name)
+    check_relevant(bird, {name: (first, last)}, model)
     start = bird.with_values({name: first})
     integration = _integration(bird, name, (first, last), model, steps_per_beat)
     if steps_per_beat is None:

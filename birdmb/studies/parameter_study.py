@@ -98,7 +98,7 @@ def _row(cycle: FlightCycle | None, states: int) -> dict[str, Any]:
         "x0": cycle.x0,
         "multiplier_real": cycle.multipliers.real,
         "multiplier_imag": cycle.multipliers.imag,
-        "multiplier_error": cycle.multiplier_errors,
+        "multiplier_error": cycle.verdict_errors,
         "mean_speed": cycle.mean_speed,
         "climb_rate": cycle.mean_climb_rate,
         "path_angle": cycle.path_angle,

@@ -1,12 +1,9 @@
 """Birds that a model cannot fly: each told in one sentence of the package's errors."""
 
-from functools import partial
-
 import numpy as np
 import pytest
 
 import birdmb
-from birdmb.models import ignores
 
 SPRUNG = {"shoulder.flap.stiffness": 20.0, "shoulder.flap.damping": 0.1}
 MASSLESS = {
@@ -97,15 +94,3 @@ def scaled(bird, factor):
         values[f"segments.{bone}.mass"] = segment.mass * factor**3
         values[f"segments.{bone}.inertia"] = (np.array(segment.inertia) * factor**5).tolist()
     return bird.with_values(values)
-
-
-def test_what_a_model_ignores(coarse):
-    bird = sprung(coarse, "shoulder.flap")
-    two = [10.0, 20.0]
-    for name in ("shoulder.flap.stiffness", "shoulder.flap.damping", "segments.hand.mass"):
-        assert ignores(birdmb.RigidModel, bird, name, two)
-        assert not ignores(birdmb.MultibodyModel, bird, name, two)
-    assert ignores(birdmb.MultibodyModel, bird, "elbow.sweep.damping", [0.1]) is False
-    quick = partial(birdmb.RigidModel, steps_per_beat=30)
-    for name in ("body.mass", "shoulder.flap.amplitude_deg", "gait.frequency", "wing.root.x"):
-        assert not ignores(quick, bird, name, two)

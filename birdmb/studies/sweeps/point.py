@@ -183,11 +183,6 @@ def _answers(task: Task, cycle: FlightCycle, trimmed: Mapping[str, float]) -> di
     return {"sensitivity": found, "state_scale": cycle.state_scale.tolist()}
 
 
-def _forwards(cycle: FlightCycle) -> bool:
-    """Whether the bird makes its way nose first; searches also end on ones that fall tail first."""
-    return bool(cycle.mean_velocity[0] > 0.0 and math.cos(cycle.mean_pitch) > 0.0)
-
-
 def described(cycle: FlightCycle) -> dict[str, Any]:
     """What is kept of a limit cycle, fit for JSON: units as in `FlightCycle`, `None` for NaN."""
     model = cast("WingModel", cycle.model)
@@ -215,10 +210,11 @@ def described(cycle: FlightCycle) -> dict[str, Any]:
         "x0": dict(zip(cycle.state_names, cycle.x0.tolist(), strict=True)),
         "multiplier_real": cycle.multipliers.real.tolist(),
         "multiplier_imag": cycle.multipliers.imag.tolist(),
-        "multiplier_error": cycle.verdict_errors.tolist(),
+        # An error without bound is no JSON number.
+        "multiplier_error": [e if math.isfinite(e) else None for e in cycle.verdict_errors],
         "monodromy": cycle.monodromy.tolist(),
         "stability": cycle.stability,
-        "flight": "forwards" if _forwards(cycle) else "backwards",
+        "flight": "forwards" if cycle.why_no_flight is None else "backwards",
         "integrator": model.integration.method if isinstance(model, MultibodyModel) else "explicit",
         "warning": " ".join(validity.warnings),
     }

@@ -45,7 +45,10 @@ _NUMBERS = {
     "steps_per_beat": ("1", "integration steps per wingbeat"),
 }
 _BY_MULTIPLIER = ("multiplier_real", "multiplier_imag", "multiplier_error")
-_OTHERS = ("x0", "monodromy", "stability", "integrator", "trimmed", "warning")
+_OTHERS = (
+    *("x0", "monodromy", "stability", "flight", "integrator", "trimmed", "warning"),
+    *("sensitivity", "state_scale"),
+)
 
 
 @dataclass(frozen=True)
@@ -98,12 +101,13 @@ class Study:
         `along` (the parameters' names).
         Where there is no cycle, or none yet, numbers are NaN and texts empty; states that only some
         points have are NaN at the others. `status` is "found", "failed" or "missing", `failure` the
-        reason, `flight` "forwards" or "backwards", `warning` how a cycle leaves the model's
-        validity, `integrator` explicit or implicit, `multiplier_error` what the verdict counts,
-        `start` the neighbour that the search started from. `sheet_jump` is true where
-        the step to the next larger value of the parameter `along` does not explain how the flights
-        at both differ (`birdmb.studies.sweeps.jumps`). The same study gives the same dataset to the
-        last bit, however it was computed; but for `seconds`, which `timings` adds.
+        reason, `flight` "forwards", or "backwards" for a bird that flies so, on its tail or on its
+        back, `warning` how a cycle leaves the model's validity, `integrator` explicit or implicit,
+        `multiplier_error` what the verdict counts (NaN: no bound), `start` the neighbour that the
+        search started from. `sheet_jump` is true where the step to the next larger value of the
+        parameter `along` does not explain how the flights at both differ
+        (`birdmb.studies.sweeps.jumps`). The same study gives the same dataset to the last bit,
+        however it was computed; but for `seconds`, which `timings` adds.
         """
         found = {place: o.result for place, o in self.outcomes.items() if o.result is not None}
         states = list(dict.fromkeys(name for result in found.values() for name in result["x0"]))
@@ -229,8 +233,8 @@ def _derived(data: Mapping[str, xr.DataArray]) -> dict[str, xr.DataArray]:
     }
 
 
-def _padded(values: list[float], size: int) -> npt.NDArray[np.float64]:
-    return np.array(values + [np.nan] * (size - len(values)))
+def _padded(values: list[float | None], size: int) -> npt.NDArray[np.float64]:
+    return np.array(values + [None] * (size - len(values)), dtype=float)
 
 
 def _placed(result: Mapping[str, Any], states: list[str]) -> npt.NDArray[np.float64]:
