@@ -17,7 +17,10 @@ from birdmb.orbits.segments import Segments
 
 # Displacements in units of the state scale, the next one where neighbours at the one before are no
 # longer neighbours; truncation 1e-12 and the noise 1e-7 of a flow good to 1e-10 at the first.
-_STEPS = (1e-3, 3e-5, 1e-6)
+_STEPS = (1e-3, 3e-5, 1e-6, 3e-8)
+# A disagreement is taken back by a shorter difference that is known to this part of it: the
+# right-hand side bends between the two, and does not jump.
+_TAKEN_BACK = 0.1
 # A difference that is known to no more than this part of itself does not decide.
 _SHARP = 1e-3
 # By how much a disagreement must exceed what the differences themselves are known to.
@@ -31,7 +34,8 @@ def jacobian_gaps(
     """Distance (M, n, n) of the segment Jacobians `factors` from differences of the flow.
 
     Zero where they agree along a direction in general position, as far as differences resolve
-    (1e-7 for a flow good to 1e-10): four flows a segment. Else the distance of the farther of the
+    (1e-7 for a flow good to 1e-10): four flows a segment, and four more for each shorter step that
+    is tried where they do not. Else the distance of the farther of the
     one-sided differences for each start state, in the units of the Jacobians: 2 n flows more.
     `points` and `ends` (M, n) are the starts and ends of the segments. Where the flow fails beside
     the points nothing is compared.
@@ -42,6 +46,7 @@ def jacobian_gaps(
     units = np.divide.outer(segments.scale, segments.scale)
     claimed = np.einsum("kij,kj->ki", factors / units, directions)
     growth = np.maximum(1.0, np.abs(claimed).max(axis=1, keepdims=True))
+    apart, at = 0.0, _STEPS[-1]
     for step in _STEPS:
         try:
             gap, own, sharp = _compare(
@@ -50,11 +55,12 @@ def jacobian_gaps(
         except StateError:
             continue
         if (gap > own).any():
-            break
-        if sharp:
+            if apart == 0.0:
+                apart, at = float(gap.max()), step
+        elif own.max() <= _TAKEN_BACK * apart if apart else sharp:
             return np.zeros_like(factors)
     try:
-        return _one_sided_distance(segments, points, period, factors, ends, step)
+        return _one_sided_distance(segments, points, period, factors, ends, at)
     except StateError:
         return np.zeros_like(factors)
 

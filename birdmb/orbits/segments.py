@@ -34,6 +34,8 @@ _STATE_STEP = 2e-5
 _TIME_STEP = 1e-5
 # Displacement over which the change of the Jacobians is observed, in units of the state scale.
 _PROBE = 1e-5
+# Round-off is no more in a coarser version: the distance of two may happen to be small.
+_COARSER = 3.0
 # By how much the two estimates of a difference are further apart than the first is off.
 _OVERSTATED = 3.0
 
@@ -170,8 +172,8 @@ class Segments:
         it closes, as far as the linearised flow tells.
 
         Variational: the factors as they are, with the accuracy that the model declares
-        (`flow_accuracy`), else round-off, plus their distance from those of its coarser version if
-        it has one, plus the change of the Jacobians over a displacement along the correction, in
+        (`flow_accuracy`), else round-off, plus three times their distance from those of its coarser
+        version if it has one, plus the change of the Jacobians over a displacement along the correction, in
         proportion.
 
         Differences: a second estimate by another formula at another place, one-sided differences
@@ -190,7 +192,8 @@ class Segments:
             bound = declared
             if isinstance(self.model, HasCoarser):
                 coarser = replace(self, model=cast("Model", self.model.coarser()))
-                bound = bound + self._column_sizes(coarser.jacobians(points, period) - factors)
+                apart = self._column_sizes(coarser.jacobians(points, period) - factors)
+                bound = bound + _COARSER * apart
             if length > 0:
                 moved = self.jacobians(*correction.displaced(_PROBE))
                 bound = bound + np.abs(moved - factors) * (length / _PROBE)

@@ -125,3 +125,23 @@ def test_round_off_of_others_is_no_size():
     found = find_limit_cycle(model, [0.3, 0.1, 0.0])
     assert found.state_scale[2] == 1.0
     assert found.multipliers[2] == pytest.approx(np.exp(-2 * np.pi), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("width", "at", "decay", "multiplier"),
+    [
+        # tanh rises at the slope 1 through `at`, within far less than the states are large.
+        (1e-6, 0.0, 0.5, np.exp(0.5)),
+        (1e-6, 0.0, 1.5, np.exp(-0.5)),
+        (1e-3, 300.0, 0.5, np.exp(0.5)),
+        (1e-4, -1.0, 1.25, np.exp(-0.25)),
+    ],
+)
+def test_a_right_hand_side_that_bends_sharply(width, at, decay, multiplier):
+    def rhs(_t, x):
+        return [width * np.tanh((x[0] - at) / width) - decay * (x[0] - at)]
+
+    found = floquet(OdeModel(rhs, ("x",), period=1.0), [at])
+    error = abs(found.multipliers[0] - multiplier)
+    assert error < found.multiplier_errors[0] < 1e-5
+    assert found.stability == ("unstable" if multiplier > 1 else "stable")
