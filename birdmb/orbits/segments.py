@@ -173,8 +173,8 @@ class Segments:
 
         Variational: the factors as they are, with the accuracy that the model declares
         (`flow_accuracy`), else round-off, plus three times their distance from those of its coarser
-        version if it has one, plus the change of the Jacobians over a displacement along the correction, in
-        proportion.
+        version if it has one, plus the change of the Jacobians over a displacement along the
+        correction, in proportion.
 
         Differences: a second estimate by another formula at another place, one-sided differences
         over twice the step less the curvatures, as far as three times the correction on the far
