@@ -18,8 +18,10 @@ from birdmb.orbits.scales import lay_out
 LyapunovMethod = Literal["variational", "neighbours"]
 
 _BLOCKS = 10
-# A separation that grew or shrank by more is lost in the error of the flow, or no neighbour's.
-_LENGTHS = (0.1, 100.0)
+# A separation that shrinks to less than so many errors of the flow is lost in them, and one that
+# grows beyond this part of the state scale is no neighbour's.
+_LEAST_IN_ERRORS, _LEAST = 1e3, 0.1
+_LARGEST_GROWN, _LARGEST = 0.1, 1e6
 _MOST_PIECES = 2**12
 _LARGEST_SEPARATION = 0.01
 
@@ -58,7 +60,8 @@ def largest_lyapunov_exponent(
 ) -> LyapunovEstimate:
     """Estimate the largest Lyapunov exponent by rescaling after every interval.
 
-    Also within an interval, in which the separation would shrink to a tenth or grow a hundredfold.
+    Also within an interval, in which the separation would be lost in the error of the flow or grow
+    out of the neighbourhood.
 
     "variational" carries a tangent vector by the flow Jacobian: exact rates, no separation to
     choose; take it where the model has `flow_jacobian`. "neighbours" carries a second solution at
@@ -134,6 +137,8 @@ class _Carrier:
         self, x: FloatArray, direction: FloatArray, t0: float, t1: float
     ) -> tuple[FloatArray, FloatArray, float, float]:
         """State and unit direction (n,) at t1, the logarithm of the growth and its error."""
+        # One interval may need many pieces where the next one does with few.
+        self.pieces = max(1, self.pieces // 2)
         while True:
             carried = self._in_pieces(x, direction, t0, t1)
             if carried is not None:
@@ -144,11 +149,11 @@ class _Carrier:
         self, x: FloatArray, direction: FloatArray, t0: float, t1: float
     ) -> tuple[FloatArray, FloatArray, float, float] | None:
         total, error = 0.0, 0.0
+        low, high = self._lengths
         times = np.linspace(t0, t1, self.pieces + 1)
         for begin, end in itertools.pairwise(times.tolist()):
             x, grown = self._carry(x, direction, begin, end)
             length = float(np.linalg.norm(grown))
-            low, high = _LENGTHS
             if not low <= length <= high and self.pieces < _MOST_PIECES:
                 return None
             if not np.isfinite(length) or length == 0:
@@ -157,7 +162,8 @@ class _Carrier:
                     f"separation grew by the factor {length}."
                 )
             total += float(np.log(length))
-            error += self._accuracy / length
+            # What the flow errs by early in a piece grows with the separation.
+            error += self._accuracy / min(length, 1.0)
             direction = grown / length
         return x, direction, total, error
 
@@ -171,6 +177,14 @@ class _Carrier:
         neighbour = model.flow(x + self.separation * direction * scale, t0, t1)
         end = model.flow(x, t0, t1)
         return end, (neighbour - end) / scale / self.separation
+
+    @property
+    def _lengths(self) -> tuple[float, float]:
+        """Least and largest length of a carried separation, in units of its length before."""
+        least = min(_LEAST, _LEAST_IN_ERRORS * self._accuracy)
+        if self.method == "variational":
+            return least, _LARGEST
+        return least, _LARGEST_GROWN / self.separation
 
     @property
     def _accuracy(self) -> float:

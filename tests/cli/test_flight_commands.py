@@ -106,4 +106,4 @@ def test_scale(run, tmp_path):
 def test_scale_by_no_mass(run):
     done = run("scale", "--mass", "-1")
     assert done.exit_code == 2
-    assert "mass must be positive" in done.stderr
+    assert "--mass must be 1e-09 to 100000, not" in done.stderr

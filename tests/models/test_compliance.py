@@ -12,7 +12,8 @@ STILL = [0.0, 0.0, 0.0, 0.0]
 
 def one_bone(ibis, **flap):
     """The flap joint alone moves: a 1 kg point mass 1 m from the shoulder, no air."""
-    values = {"air.density": 0.0, "wing.discretisation": 8}
+    # Far from the plane of symmetry, which a wing cannot swing through.
+    values = {"air.density": 0.0, "wing.discretisation": 8, "wing.root.y": 3.0}
     for joint in ibis.joint_names:
         values |= {f"{joint}.offset_deg": 0.0, f"{joint}.amplitude_deg": 0.0}
     for bone in ("forearm", "hand"):

@@ -66,7 +66,7 @@ def test_values_beyond_reckoning_end_in_a_sentence(coarse, kind, values):
         birdmb.find_limit_cycle(kind(coarse.with_values(values)))
 
 
-@pytest.mark.parametrize("factor", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize("factor", [1e-3, 1.0, 30.0])
 def test_driven_joints_follow_alike_in_birds_of_all_sizes(coarse, factor):
     """Froude similarity: lengths by the factor, masses by its cube, times by its root."""
     links = birdmb.MultibodyModel(scaled(coarse, factor))

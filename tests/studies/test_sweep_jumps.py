@@ -54,10 +54,11 @@ def test_neighbours_on_different_sheets_are_marked_and_no_others(derailed):
     (count, pair) = jump_lines(data)
     assert count.startswith("1 pair of neighbours lies on different flights")
     assert "body.mass = 1.2, shoulder.flap.amplitude_deg = 42 (unstable, 17.96 m/s" in pair
-    (verdict,) = verdict_lines(data)
-    assert verdict == (
-        "4 unstable: 4.621 to 17.96 m/s, climbing -0.062 to +0.54 m/s, 2 of them backwards"
-    )
+    # What falls tail first is not resolved by so few steps: its verdict is left open.
+    assert verdict_lines(data) == [
+        "2 unstable: 17.81 to 17.96 m/s, climbing -0.062 to +0.031 m/s",
+        "2 undecided: 4.621 to 4.751 m/s, climbing +0.52 to +0.54 m/s, 2 of them backwards",
+    ]
     assert data.flight.values.ravel().tolist() == ["forwards"] * 2 + ["backwards"] * 2
 
 
@@ -68,9 +69,9 @@ def test_jumps_survive_a_file_and_are_drawn(derailed, tmp_path):
     figure = derailed.plot("mean_speed")
     (axes,) = figure.axes
     assert [line.get_xdata()[0] for line in axes.lines[-2:-1]] == [pytest.approx(1.25)]
-    assert "4 unstable: 4.621 to 17.96 m/s" in figure.get_suptitle()
+    assert "2 undecided: 4.621 to 4.751 m/s" in figure.get_suptitle()
     texts = [text.get_text() for legend in figure.legends for text in legend.get_texts()]
-    assert texts == ["unstable", "flies backwards", "neighbours on different flights"]
+    assert texts == ["unstable", "undecided", "flies backwards", "neighbours on different flights"]
 
 
 def test_maps_draw_a_line_between_the_cells(derailed):

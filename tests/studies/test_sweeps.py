@@ -75,7 +75,7 @@ def test_failing_points_are_outcomes_with_a_reason(inline):
     assert (data.status.sel({AMPLITUDE: IMPOSSIBLE}) == "failed").all()
     assert (data.status.sel({AMPLITUDE: ~failed}) == "found").all()
     assert all(
-        "No orbit found" in text for text in data.failure.sel({AMPLITUDE: IMPOSSIBLE}).values
+        "the wings swing through one another" in text for text in data.failure.sel({AMPLITUDE: IMPOSSIBLE}).values
     )
     assert np.isnan(data.x0.sel({AMPLITUDE: IMPOSSIBLE})).all()
     assert len(inline.failures) == 6
@@ -138,8 +138,9 @@ def test_warm_points_need_few_flows(ibis_compliant, tmp_path, monkeypatch):
     )
     data = study.to_xarray()
     assert (data.status == "found").all()
-    # Two flows are those of the error of the integration.
-    assert max(counts[1:4]) <= 1 + 8 + 12 + 7 + 2 + 1
+    # Two flows are those of the error of the integration; what it does to the multipliers takes a
+    # Newton step or two on the orbit of twice the steps, and a Jacobian there by 12.
+    assert max(counts[1:4]) <= 1 + 8 + 12 + 7 + 2 + 1 + 3 + 12
     for place in range(1, 4):
         model = partial(birdmb.MultibodyModel, steps_per_beat=60)(
             bird.with_joint("shoulder.flap", stiffness=float(data[f"{FLAP}.stiffness"][place]))
