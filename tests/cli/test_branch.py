@@ -64,6 +64,7 @@ def test_the_table_fits(run):
     assert "…" not in result.stdout
 
 
+@pytest.mark.long
 @pytest.mark.skipif(os.name != "posix", reason="sends POSIX signals")
 @pytest.mark.parametrize(("stop", "status"), [(signal.SIGINT, 130), (signal.SIGKILL, -9)])
 def test_a_run_that_is_stopped_resumes_on_the_same_branch(run, followed, tmp_path, stop, status):

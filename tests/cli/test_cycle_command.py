@@ -92,6 +92,7 @@ def test_tables_and_verdict(run):
     assert max(map(len, tables)) <= 80
 
 
+@pytest.mark.long
 def test_stiff_hinges_are_integrated_implicitly_and_it_is_said(run):
     tiny = "feathers.5.hinge={stiffness = 1, damping = 0.002, rest_deg = 6.1, mass = 5e-5}"
     values = ("--set", tiny, "--set", "wing.discretisation=4", "--steps-per-beat", "30")

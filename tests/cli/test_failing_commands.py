@@ -108,6 +108,7 @@ GROUNDED = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("model", ["rigid", "multibody"])
 @pytest.mark.parametrize("values", GROUNDED.values(), ids=GROUNDED)
 def test_a_bird_that_cannot_fly(run, model, values):

@@ -45,6 +45,7 @@ def test_wrong_bounds(run, arguments, said):
     assert said in " ".join(done.stderr.split())
 
 
+@pytest.mark.long
 def test_tail_study(run, tmp_path):
     store = tmp_path / "tail.db"
     out = tmp_path / "figures"
@@ -64,6 +65,7 @@ def test_tail_study_needs_a_tail(run, tmp_path):
     assert "tail.opening_deg" in done.stderr
 
 
+@pytest.mark.long
 def test_sweep_of_trimmed_flights(run, tmp_path):
     store = tmp_path / "level.db"
     done = run(

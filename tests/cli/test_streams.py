@@ -31,6 +31,7 @@ def birdmb(*arguments, cwd=None, stdout=subprocess.PIPE, shell="", **environment
     )
 
 
+@pytest.mark.long
 def test_what_an_encoding_lacks_is_spelled_out():
     along = ("--parameter", "gait.frequency", "--from", "4", "--to", "4.01", "--max-points", "2")
     result = birdmb("branch", IBIS, *QUICK, *along, PYTHONIOENCODING="cp1252")
@@ -80,6 +81,7 @@ def test_a_narrow_terminal_cuts_no_digits(run, monkeypatch, columns):
     assert run("check", IBIS).exit_code == 0
 
 
+@pytest.mark.long
 def test_pictures_are_drawn_by_settings_of_their_own(tmp_path):
     (tmp_path / "matplotlibrc").write_text("text.usetex: True\nfont.size: 40\n")
     result = birdmb(

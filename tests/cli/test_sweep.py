@@ -53,6 +53,7 @@ def wait_until_gone(processes):
         time.sleep(0.02)
 
 
+@pytest.mark.long
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="looks for orphans in /proc")
 def test_killed_and_interrupted_sweeps_keep_what_they_told_and_leave_no_workers(tmp_path, run):
     store = tmp_path / "study.db"

@@ -37,6 +37,7 @@ def gliding(ibis):
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("draw", ALL)
 def test_every_figure_shows_something_and_nothing_sticks_out(cycle, draw):
     figure = draw(cycle)

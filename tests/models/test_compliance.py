@@ -91,6 +91,7 @@ def test_implicit_steps_are_of_fifth_order(ibis_compliant):
     assert np.log2(errors[0] / errors[1]) > 4.0
 
 
+@pytest.mark.long
 def test_a_stiff_joint_is_integrated_implicitly_without_being_asked(ibis_massless):
     """Of next to no inertia, the wing hangs between spring and air."""
     bird = ibis_massless.with_joint("shoulder.flap", stiffness=20, damping=0.2).with_values(
@@ -117,6 +118,7 @@ def test_a_stiff_joint_is_integrated_implicitly_without_being_asked(ibis_massles
     np.testing.assert_allclose(stiff.flow(cycle.x0, 0.0, 0.05), end, rtol=1e-5, atol=1e-5)
 
 
+@pytest.mark.long
 def test_cubic_springs_against_energy(ibis):
     """Undamped, released at rest: (k/2 + k3/4 a^2) a^2 is the energy when it passes its driver."""
     bird = one_bone(ibis, stiffness=5.0, damping=0.0).with_values(

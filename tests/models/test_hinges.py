@@ -134,6 +134,7 @@ def test_cycle_is_closed_and_its_energy_balances(cycle):
     assert len(cycle.multipliers) == 8
 
 
+@pytest.mark.long
 def test_what_hinges_take_is_what_their_dampers_dissipate(cycle, shipped):
     """Over a beat a spring gives back what it took; what is left of the power is the damper's."""
     beat = cycle.beat
@@ -175,6 +176,7 @@ def test_a_first_guess_settles_the_hinges(cycle):
     assert (np.abs(guess - cycle.x0[[4, 6]]) < 0.5 * np.abs(rest - cycle.x0[[4, 6]])).all()
 
 
+@pytest.mark.long
 def test_steps_doubled_and_the_implicit_method_change_nothing(shipped, cycle):
     x = cycle.x0
     coarse = cycle.model
@@ -193,6 +195,7 @@ def test_steps_doubled_and_the_implicit_method_change_nothing(shipped, cycle):
     )
 
 
+@pytest.mark.long
 def test_tiny_feathers_are_integrated_implicitly_without_being_asked(shipped, cycle):
     tiny = shipped.with_values({f"feathers.{n}.hinge.mass": 5e-5 for n in ("5", "3")})
     stiff = birdmb.MultibodyModel(tiny)

@@ -20,6 +20,7 @@ def with_wing_mass(bird, factor):
     return bird.with_values(values)
 
 
+@pytest.mark.long
 def test_massless_wings_give_the_rigid_bird_at_first_order_in_their_mass(ibis_massless):
     rigid = birdmb.find_limit_cycle(birdmb.RigidModel(ibis_massless, steps_per_beat=240))
     gaps = []
@@ -42,6 +43,7 @@ def test_compliant_cycle_is_closed_and_its_energy_balances(compliant_cycle):
     assert (compliant_cycle.multiplier_errors < 1e-6).all()
 
 
+@pytest.mark.long
 def test_energy_balances_with_several_compliant_joints(ibis):
     bird = ibis.with_joint("shoulder.flap", stiffness=25, damping=0.2).with_joint(
         "elbow.sweep", stiffness=10, damping=0.05
@@ -79,6 +81,7 @@ def test_rigid_power_balances_with_climbing(rigid_cycle):
     )
 
 
+@pytest.mark.long
 def test_multipliers_do_not_depend_on_segments_or_starting_phase(ibis_compliant, compliant_cycle):
     model = birdmb.MultibodyModel(ibis_compliant)
     others = [
@@ -166,6 +169,7 @@ def test_a_model_is_freed_when_nobody_needs_it(ibis, kind):
     assert gone() is None
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("method", ["explicit", "implicit"])
 def test_integration_error_is_that_of_the_method_that_was_named(
     ibis_compliant, method, monkeypatch

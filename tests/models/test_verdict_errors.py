@@ -34,6 +34,7 @@ def test_the_bars_hold_against_many_more_steps(coarse, kind):
             assert cycle.stability == verdict(cycle.multipliers, cycle.verdict_errors)
 
 
+@pytest.mark.long
 def test_the_bars_hold_where_a_spring_has_two_sides(coarse):
     """Its kink leaves an error that twice the steps hardly lessen."""
     bird = coarse.with_joint("elbow.sweep", stiffness=10, damping=0.05, stiffness_below=20)

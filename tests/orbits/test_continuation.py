@@ -86,6 +86,7 @@ def test_a_fold_is_passed():
     assert [branch.points[i].stability for i in (0, -1)] == ["stable", "unstable"]
 
 
+@pytest.mark.long
 def test_duffings_folds_separate_one_orbit_from_three():
     branch = continue_branch(duffing, (1.6, 1.2), steps=Steps(longest=0.2))
     kinds = [bifurcation.kind for bifurcation in branch.bifurcations]
@@ -145,6 +146,7 @@ def test_a_neutral_saddle_is_no_bifurcation():
     assert continue_branch(family, (-0.1, 0.1), steps=COARSE).bifurcations == ()
 
 
+@pytest.mark.long
 def test_cycles_that_shrink_to_an_equilibrium():
     branch = continue_branch(
         stuart_landau, (0.5, -0.5), [0.7, 0.0], period_guess=3.1, steps=Steps(longest=0.05)
@@ -168,6 +170,7 @@ def test_the_end_of_the_domain_is_said():
         raise branch.stopped
 
 
+@pytest.mark.long
 def test_a_step_that_becomes_too_small_is_said():
     def family(p):
         # the orbit jumps at p = 0: there is nothing to follow
@@ -178,6 +181,7 @@ def test_a_step_that_becomes_too_small_is_said():
     assert branch.parameters[-1] == pytest.approx(0, abs=1e-3)
 
 
+@pytest.mark.long
 def test_save_load_resume(tmp_path):
     seen = []
     options = {"steps": COARSE, "observables": {"reach": lambda c: c.trajectory().states.max()}}
@@ -231,6 +235,7 @@ class Killed(BaseException):
     """Stands for a crash."""
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("after", [1, 5])
 def test_a_killed_run_resumes_on_the_same_branch(tmp_path, after):
     path = tmp_path / "branch.nc"

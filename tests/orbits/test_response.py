@@ -33,6 +33,7 @@ def test_lyapunov_exponent_of_a_stable_cycle_is_zero():
     assert abs(estimate.exponent) < 1e-6
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("method", ["variational", "neighbours"])
 def test_lyapunov_exponent_of_chaos(method):
     # Roessler's standard parameters; 0.0714 in the literature (Sprott 2003)

@@ -39,6 +39,7 @@ def test_numbers_of_the_bird_are_followed(coarse, quick, name, ends):
     assert set(last.observables) == set(OBSERVABLE_UNITS)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "ends"), [(STIFFNESS, (20.0, 19.0)), ("shoulder.flap.damping", (0.2, 0.19))]
 )
@@ -53,6 +54,7 @@ def test_springs_and_dampers_are_followed(ibis_compliant, name, ends):
     assert (seen["lowest_flap"], seen["highest_flap"]) == pytest.approx((flap.min(), flap.max()))
 
 
+@pytest.mark.long
 def test_the_flight_ends_in_a_fold_as_the_shoulder_softens(ibis_compliant):
     # that of a fine wing is at 5.91 (docs/stiffness_branch.md)
     bird = ibis_compliant.with_values({"wing.discretisation.elements": 6})

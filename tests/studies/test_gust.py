@@ -31,6 +31,7 @@ def test_gusts_have_the_shapes_they_are_named_after():
     assert (step(0.0999)[1], step(0.1)[1]) == (0.0, -1.0)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["rigid", "multibody"])
 @pytest.mark.parametrize("gust", [GaussianGust, CosineGust, StepGust])
 def test_linear_response_is_the_full_one_to_second_order(cycles, name, gust):

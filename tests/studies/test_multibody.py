@@ -15,6 +15,7 @@ AMPLITUDE = "shoulder.flap.amplitude_deg"
 BONES = ("humerus", "forearm", "hand")
 
 
+@pytest.mark.long
 def test_bird_of_light_wings_trims_like_the_rigid_one(coarse):
     light = {f"segments.{bone}.mass": 1e-6 for bone in BONES}
     light |= {f"segments.{bone}.inertia": [1e-9, 1e-9, 1e-9] for bone in BONES}
@@ -27,6 +28,7 @@ def test_bird_of_light_wings_trims_like_the_rigid_one(coarse):
     assert multibody.values[AMPLITUDE] == pytest.approx(rigid.values[AMPLITUDE], abs=1e-3)
 
 
+@pytest.mark.long
 def test_bird_with_a_compliant_shoulder(ibis_compliant):
     coarse = ibis_compliant.with_values({"wing.discretisation.elements": 8})
     cycle = birdmb.find_limit_cycle(birdmb.MultibodyModel(coarse))

@@ -75,7 +75,8 @@ def test_failing_points_are_outcomes_with_a_reason(inline):
     assert (data.status.sel({AMPLITUDE: IMPOSSIBLE}) == "failed").all()
     assert (data.status.sel({AMPLITUDE: ~failed}) == "found").all()
     assert all(
-        "the wings swing through one another" in text for text in data.failure.sel({AMPLITUDE: IMPOSSIBLE}).values
+        "the wings swing through one another" in text
+        for text in data.failure.sel({AMPLITUDE: IMPOSSIBLE}).values
     )
     assert np.isnan(data.x0.sel({AMPLITUDE: IMPOSSIBLE})).all()
     assert len(inline.failures) == 6
@@ -103,6 +104,7 @@ def test_bits_depend_neither_on_workers_nor_on_what_finishes_first(inline, tmp_p
     assert list(study.outcomes) == list(inline.outcomes)
 
 
+@pytest.mark.long
 def test_compliant_birds_have_the_same_bits_here_and_in_two_processes(ibis_compliant, tmp_path):
     bird = ibis_compliant.with_values({"wing.discretisation.elements": 4})
     grid = {f"{FLAP}.stiffness": [60.0, 50.0, 40.0]}
@@ -115,6 +117,7 @@ def test_compliant_birds_have_the_same_bits_here_and_in_two_processes(ibis_compl
     assert here.to_xarray().identical(there.to_xarray())
 
 
+@pytest.mark.long
 def test_warm_points_need_few_flows(ibis_compliant, tmp_path, monkeypatch):
     """About seven steps, 12 flows for the Jacobian, 7 for its errors, 1 for each parameter."""
     bird = ibis_compliant.with_values({"wing.discretisation.elements": 4})

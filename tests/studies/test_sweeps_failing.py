@@ -67,6 +67,7 @@ def test_interrupts_are_no_outcome(tmp_path):
     assert len(Study.open(tmp_path / "s.db").outcomes) == 1
 
 
+@pytest.mark.long
 @pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="kills its worker")
 def test_a_point_that_ends_its_process_is_found_and_the_others_go_on(tmp_path):
     options = {"store": tmp_path / "s.db", "workers": 1, "model": killing_model}

@@ -15,6 +15,7 @@ from .sweeping import GRID, POINTS, Inline, coarse_bird, logged_model, read_log
 ROOT = Path(__file__).parents[2]
 
 
+@pytest.mark.long
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="forks")
 def test_sweep_killed_at_ten_random_moments(tmp_path):
     store, log = tmp_path / "study.db", tmp_path / "killed.log"

@@ -108,6 +108,7 @@ def test_price_of_stability():
     assert np.isnan([fast.cheapest_stable, fast.opening]).all()
 
 
+@pytest.mark.long
 def test_stability_openings(bird):
     """Each point of the curve: a level flight whose leading multiplier is on the unit circle."""
     (found,) = study.stability_openings(bird, [-13.0], amplitudes=(36.0, 40.0), seeds=1)
