@@ -33,6 +33,8 @@ def print_report(console: Console, cycle: FlightCycle, validity: Validity) -> No
     if cycle.failed_checks or cycle.why_no_flight is not None:
         verdict.stylize("bold red", 0, verdict.plain.index(cycle.stability))
     console.print(verdict)
+    for remark in cycle.remarks:
+        console.print(remark, style="yellow", highlight=False)
     for warning in validity.warnings:
         console.print(f"outside the model's validity: {warning}", style="yellow", highlight=False)
 

@@ -1,6 +1,6 @@
 """How a model says that it has lost its meaning, as `StateError`."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 import numpy as np
@@ -9,6 +9,9 @@ from birdmb._typing import FloatArray
 from birdmb.errors import StateError
 from birdmb.models.compiled_calls import behind
 from birdmb.topology import Bird
+
+# In typical sizes of the states: Mach 300, or turning 10 000 rad/s.
+_RUNAWAY = 1e4
 
 
 def lifting_line_lost(bird: Bird, t: float, angles: FloatArray) -> StateError:
@@ -50,6 +53,16 @@ def _listed(bird: Bird, angles: FloatArray) -> str:
         f"{name} {np.degrees(angle):.4g} deg"
         for name, angle in zip(bird.angle_names, angles, strict=True)
     )
+
+
+def refuse_runaway(
+    bird: Bird, names: Sequence[str], x: FloatArray, scale: FloatArray, t: float
+) -> None:
+    """Raise `StateError` for a state (n,) that no flight has, before it is integrated for long."""
+    beyond = np.flatnonzero(np.abs(x) > _RUNAWAY * scale)
+    if beyond.size:
+        listed = ", ".join(f"{names[i]} = {x[i]:.3g}" for i in beyond)
+        raise StateError(f"{bird.name}: the motion runs away: {listed} at t = {t:.4g} s.")
 
 
 @contextmanager

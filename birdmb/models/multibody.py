@@ -12,7 +12,12 @@ from birdmb.errors import StateError
 from birdmb.models.compiled_calls import COMPILED, calls_compiled_code
 from birdmb.models.determinacy import refuse_undetermined
 from birdmb.models.exudyn_tree import BODY_COORDINATES, ExudynBird, typical_inertias
-from birdmb.models.failures import lifting_line_lost, overflow_told, wing_misplaced
+from birdmb.models.failures import (
+    lifting_line_lost,
+    overflow_told,
+    refuse_runaway,
+    wing_misplaced,
+)
 from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.gusts import Gust
@@ -140,7 +145,9 @@ class MultibodyModel(WingModel):
 
     def flow(self, x0: npt.ArrayLike, t0: float, t1: float) -> FloatArray:
         """State (n,) at t1 (s) of the flight through x0 (n,) at t0; raises `StateError`."""
-        return self._advanced(np.asarray(x0, dtype=float), t0, t1, self._steps(t0, t1))
+        start = np.asarray(x0, dtype=float)
+        refuse_runaway(self.bird, self.state_names, start, self.state_scale, t0)
+        return self._advanced(start, t0, t1, self._steps(t0, t1))
 
     @calls_compiled_code
     def trajectory(

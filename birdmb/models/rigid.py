@@ -13,7 +13,12 @@ from birdmb.aerodynamics.prescribed import (
     prescribed_wing,
 )
 from birdmb.errors import StateError
-from birdmb.models.failures import lifting_line_lost, overflow_told, wing_misplaced
+from birdmb.models.failures import (
+    lifting_line_lost,
+    overflow_told,
+    refuse_runaway,
+    wing_misplaced,
+)
 from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.gusts import Gust
@@ -127,6 +132,7 @@ class RigidModel(WingModel):
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         steps = self._steps(t0, t1)
         start = np.asarray(x0, dtype=float)
+        refuse_runaway(self.bird, self.state_names, start, self.state_scale, t0)
         table, gusts = (
             self._table(t0 % self.bird.period, t1 - t0, steps),
             self._gusts(t0, t1, 2 * steps),
