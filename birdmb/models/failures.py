@@ -59,8 +59,8 @@ def refuse_runaway(
     bird: Bird, names: Sequence[str], x: FloatArray, scale: FloatArray, t: float
 ) -> None:
     """Raise `StateError` for a state (n,) that no flight has, before it is integrated for long."""
-    beyond = np.flatnonzero(np.abs(x) > _RUNAWAY * scale)
-    if beyond.size:
+    beyond = np.flatnonzero(np.abs(x) > _RUNAWAY * scale).tolist()
+    if beyond:
         listed = ", ".join(f"{names[i]} = {x[i]:.3g}" for i in beyond)
         raise StateError(f"{bird.name}: the motion runs away: {listed} at t = {t:.4g} s.")
 
