@@ -74,7 +74,7 @@ def test_directories_are_made(tmp_path):
 
 
 def test_tables_and_verdict(run):
-    result = run("cycle", COMPLIANT, "--set", "wing.discretisation=8", "--steps-per-beat", "32")
+    result = run("cycle", COMPLIANT, "--set", "wing.discretisation=4", "--steps-per-beat", "24")
     assert result.exit_code == 0, result.stderr
     assert "ibis_compliant_shoulder, multibody model: 6 states" in result.stderr
     for text in (
@@ -84,23 +84,23 @@ def test_tables_and_verdict(run):
         "cost of transport",
         "driver, W",
         "energy imbalance",
-        "32 steps a beat",
+        "24 steps a beat",
         "the fastest-growing disturbance doubles in 0.",
     ):
         assert text in result.stdout
-    *tables, _verdict = result.stdout.rstrip().splitlines()
-    assert max(map(len, tables)) <= 80
+    tables, _ = result.stdout.split("unstable at ")
+    assert max(map(len, tables.splitlines())) <= 80
 
 
 @pytest.mark.long
 def test_stiff_hinges_are_integrated_implicitly_and_it_is_said(run):
     tiny = "feathers.5.hinge={stiffness = 1, damping = 0.002, rest_deg = 6.1, mass = 5e-5}"
-    values = ("--set", tiny, "--set", "wing.discretisation=4", "--steps-per-beat", "30")
+    values = ("--set", tiny, "--set", "wing.discretisation=4", "--steps-per-beat", "16")
     result = run("cycle", IBIS, *values)
     assert result.exit_code == 0, result.stderr
     assert "ibis, multibody model: 6 states" in result.stderr
     rows = [" ".join(line.split()) for line in result.stdout.splitlines()]
-    assert "integration implicit 30 steps a beat of Radau IIA: stiff joints" in rows
+    assert "integration implicit 16 steps a beat of Radau IIA: stiff joints" in rows
     assert any(row.startswith("feathers.5.hinge.rate") for row in rows)
     # In the table of powers: dissipated by the damper, no work of a driver.
     assert any(row.startswith("feathers.5.hinge -0.0") for row in rows)

@@ -50,7 +50,7 @@ def test_tail_study(run, tmp_path):
     store = tmp_path / "tail.db"
     out = tmp_path / "figures"
     done = run(
-        "tail-study", TAIL, "--store", str(store), "--every", "16", "--out", str(out), *COARSE
+        "tail-study", TAIL, "--store", str(store), "--every", "24", "--out", str(out), *COARSE
     )
     assert done.exit_code == 0, done.stderr
     assert "fly level" in done.stdout
