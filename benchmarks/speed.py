@@ -14,8 +14,9 @@ from rich.table import Table
 
 import birdmb
 from birdmb.aerodynamics.prescribed import bird_loads, prescribed_wing
-from birdmb.models.exudyn_tree import ExudynBird
+from birdmb.models.exudyn_tree import BODY_COORDINATES, ExudynBird
 from birdmb.models.multibody_kernel import air_forces
+from birdmb.models.springs import spring_torques, springs_of
 
 TOPOLOGIES = Path(__file__).parent.parent / "topologies"
 STATE = (18.0, -2.0, 0.1)
@@ -56,11 +57,15 @@ def integrations(bird: birdmb.Bird) -> tuple[float, float, int]:
     """Seconds of a beat in Exudyn with and without the air's loads; evaluations of the forces."""
     model = birdmb.MultibodyModel(bird)
     x0, steps, calls = model.initial_guess(), model.steps_per_beat, 0
+    springs = springs_of(bird)
+    joints = slice(BODY_COORDINATES, BODY_COORDINATES + springs.damping.size)
 
     def springs_alone(t: float, q: np.ndarray, v: np.ndarray) -> np.ndarray:
         nonlocal calls
         calls += 1
-        return model.spring_forces(t, q, v)
+        driver = model.instant(t)
+        torques = spring_torques(springs, q[joints] - driver.angles, v[joints] - driver.rates)
+        return np.concatenate([np.zeros(BODY_COORDINATES), torques, torques])
 
     bare = ExudynBird(bird, springs_alone, model.prescribed, model.driver_accelerations)
     q, v = model.coordinates(0.0, x0)

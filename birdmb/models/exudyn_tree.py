@@ -20,7 +20,7 @@ from scipy.spatial.transform import Rotation
 
 from birdmb._typing import BoolArray, FloatArray
 from birdmb.errors import StateError
-from birdmb.models.compiled_calls import Carrier, calls_compiled_code
+from birdmb.models.compiled_calls import COMPILED, Carrier, calls_compiled_code
 from birdmb.models.feather_rods import FeatherRod, feather_rods
 from birdmb.topology import BONES, Bird
 
@@ -138,8 +138,68 @@ def _add_wing(
     links.extend(hinges)
 
 
+def _add_tree(mbs: Any, links: Sequence[_Link], gravity: float, **options: Any) -> tuple[Any, Any]:
+    """Put the links into a system; the numbers of the node of their coordinates and of the tree."""
+    zeros = [0.0] * len(links)
+    node = mbs.AddNode(
+        NodeGenericODE2(
+            referenceCoordinates=zeros,
+            initialCoordinates=zeros,
+            initialCoordinates_t=zeros,
+            numberOfODE2Coordinates=len(links),
+        )
+    )
+    tree = mbs.AddObject(
+        ObjectKinematicTree(
+            nodeNumber=node,
+            jointTypes=[link.joint for link in links],
+            linkParents=[link.parent for link in links],
+            jointTransformations=exu.Matrix3DList([link.transformation for link in links]),
+            jointOffsets=exu.Vector3DList([link.offset for link in links]),
+            linkInertiasCOM=exu.Matrix3DList([link.inertia for link in links]),
+            linkCOMs=exu.Vector3DList([link.centre for link in links]),
+            linkMasses=[link.mass for link in links],
+            gravity=[0.0, 0.0, gravity],
+            **options,
+        )
+    )
+    return node, tree
+
+
+class TreeInertia:
+    """Mass matrix and inertial forces of a bird's tree, without any loads.
+
+    Args:
+        bird: the bird.
+    """
+
+    def __init__(self, bird: Bird) -> None:
+        links = bird_links(bird)
+        self.size = len(links)
+        self._container = exu.SystemContainer()
+        self._mbs = self._container.AddSystem()
+        _, self._tree = _add_tree(self._mbs, links, bird.gravity)
+        self._mbs.Assemble()
+
+    def at(self, q: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Mass matrices M (K, c, c) and forces b (K, c) at coordinates q and velocities v (K, c).
+
+        M q'' + b = generalised forces; b holds gravity and what inertia does at constant rates.
+        """
+        mass, bias = np.empty((*q.shape, self.size)), np.empty(q.shape)
+        current = exu.ConfigurationType.Current
+        data, compute = self._mbs.systemData, self._mbs.ComputeItem
+        with COMPILED:  # another thread's coordinates would come in between
+            for k in range(len(q)):
+                data.SetODE2Coordinates(q[k], current)
+                data.SetODE2Coordinates_t(v[k], current)
+                mass[k] = compute(self._tree, _MASS_MATRIX)
+                bias[k] = compute(self._tree, _LEFT_HAND_SIDE)
+        return mass, bias
+
+
 class ExudynBird:
-    """The assembled bird, ready to be integrated and asked for its mass matrix.
+    """The assembled bird, ready to be integrated.
 
     Args:
         bird: the bird.
@@ -157,18 +217,9 @@ class ExudynBird:
     ) -> None:
         self._carrier = Carrier()
         links = bird_links(bird)
-        n = self.size = len(links)
+        n = len(links)
         self._container = exu.SystemContainer()
         self.mbs = self._container.AddSystem()
-        zeros = [0.0] * n
-        node = self.mbs.AddNode(
-            NodeGenericODE2(
-                referenceCoordinates=zeros,
-                initialCoordinates=zeros,
-                initialCoordinates_t=zeros,
-                numberOfODE2Coordinates=n,
-            )
-        )
 
         # Exudyn keeps these functions out of the garbage collector's sight: what they held
         # strongly, this object or the model, would never be freed.
@@ -177,19 +228,11 @@ class ExudynBird:
         def tree_forces(t: float, _item: int, q: Sequence[float], v: Sequence[float]) -> FloatArray:
             return call_forces()(t, np.array(q), np.array(v))
 
-        self.tree = self.mbs.AddObject(
-            ObjectKinematicTree(
-                nodeNumber=node,
-                jointTypes=[link.joint for link in links],
-                linkParents=[link.parent for link in links],
-                jointTransformations=exu.Matrix3DList([link.transformation for link in links]),
-                jointOffsets=exu.Vector3DList([link.offset for link in links]),
-                linkInertiasCOM=exu.Matrix3DList([link.inertia for link in links]),
-                linkCOMs=exu.Vector3DList([link.centre for link in links]),
-                linkMasses=[link.mass for link in links],
-                gravity=[0.0, 0.0, bird.gravity],
-                forceUserFunction=self._carrier.callback(tree_forces, n),
-            )
+        node, _ = _add_tree(
+            self.mbs,
+            links,
+            bird.gravity,
+            forceUserFunction=self._carrier.callback(tree_forces, n),
         )
         inertia = np.where(prescribed, _DRIVEN_INERTIA * typical_inertias(bird, n), 0.0)
 
@@ -230,27 +273,6 @@ class ExudynBird:
             storeSolver=False,
         )
         return np.array(data.GetODE2Coordinates()), np.array(data.GetODE2Coordinates_t())
-
-    @calls_compiled_code
-    def mass_and_forces(
-        self, t: float, q: FloatArray, v: FloatArray
-    ) -> tuple[FloatArray, FloatArray]:
-        """Mass matrix M (n, n) and left-hand side L (n,), for which M q'' + L = actuator forces.
-
-        Raises what `forces` raised.
-        """
-        mass = self.mass(t, q, v)
-        return mass, np.array(self._call(self.mbs.ComputeItem, self.tree, _LEFT_HAND_SIDE))
-
-    @calls_compiled_code
-    def mass(self, t: float, q: FloatArray, v: FloatArray) -> FloatArray:
-        """Mass matrix (n, n)."""
-        data = self.mbs.systemData
-        current = exu.ConfigurationType.Current
-        data.SetODE2Coordinates(q, current)
-        data.SetODE2Coordinates_t(v, current)
-        data.SetTime(t, current)
-        return np.array(self._call(self.mbs.ComputeItem, self.tree, _MASS_MATRIX))
 
     def _call(self, compiled: Callable[..., Any], *args: Any, **options: Any) -> Any:
         try:

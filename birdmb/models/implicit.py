@@ -30,11 +30,12 @@ _NEWTON_TOLERANCE = 1e-12
 _STALLED = 1e-9
 _RELATIVE_STEP = 1e-7
 
-RightHandSide = Callable[[float, FloatArray], FloatArray]
+# Rates (K, n) at K times of K states (K, n).
+Rates = Callable[[FloatArray, FloatArray], FloatArray]
 
 
 def integrate_implicitly(
-    rhs: RightHandSide, x0: FloatArray, t0: float, t1: float, steps: int, scale: FloatArray
+    rates: Rates, x0: FloatArray, t0: float, t1: float, steps: int, scale: FloatArray
 ) -> FloatArray:
     """State (n,) at t1 after `steps` steps of Radau IIA from x0 (n,) at t0.
 
@@ -46,19 +47,20 @@ def integrate_implicitly(
     # A motion that runs away overflows; it is told by what is not finite, not by warnings.
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         for i in range(steps):
-            x = x + _step(rhs, t0 + i * h, x, h, scale)
+            x = x + _step(rates, t0 + i * h, x, h, scale)
     return x
 
 
-def _step(rhs: RightHandSide, t: float, x: FloatArray, h: float, scale: FloatArray) -> FloatArray:
+def _step(rates: Rates, t: float, x: FloatArray, h: float, scale: FloatArray) -> FloatArray:
+    times = t + _NODES * h
     stages = np.zeros((3, x.size))
     before = np.inf
     for _ in range(_JACOBIANS):
-        solve = _linearised(rhs, t, x, stages, h, scale)
+        if not np.isfinite(stages).all():
+            raise _no_solution(t)
+        solve = _linearised(rates, times, x + stages, h, scale)
         for _ in range(_NEWTON_STEPS):
-            at = zip(_NODES, stages, strict=True)
-            rates = np.array([rhs(t + c * h, x + z) for c, z in at])
-            residual = h * (_MATRIX @ rates) - stages
+            residual = h * (_MATRIX @ rates(times, x + stages)) - stages
             if not np.isfinite(residual).all():
                 raise _no_solution(t)
             change = solve(residual)
@@ -76,31 +78,22 @@ def _no_solution(t: float) -> StateError:
 
 
 def _linearised(
-    rhs: RightHandSide, t: float, x: FloatArray, stages: FloatArray, h: float, scale: FloatArray
+    rates: Rates, times: FloatArray, states: FloatArray, h: float, scale: FloatArray
 ) -> Callable[[FloatArray], FloatArray]:
     """Solver of the linearised stage equations, each stage with a Jacobian of its own.
 
     One for all would not do: as the elbow bends, the inertia that a shoulder joint moves, and with
-    it the fastest rate, can change several times over within a step.
+    it the fastest rate, can change several times over within a step. Forward differences are
+    enough: the Jacobians decide how fast Newton converges, not where.
     """
-    n = x.size
-    matrix = np.eye(3 * n)
-    for j, (c, z) in enumerate(zip(_NODES, stages, strict=True)):
-        jacobian = _jacobian(rhs, t + c * h, x + z, scale)
-        for i in range(3):
-            matrix[i * n : (i + 1) * n, j * n : (j + 1) * n] -= h * _MATRIX[i, j] * jacobian
+    n = states.shape[1]
+    shifted = states[:, None, :] + np.diag(_RELATIVE_STEP * scale)
+    taken = np.einsum("ijj->ij", shifted - states[:, None, :])
+    rows = np.concatenate([states[:, None, :], shifted], axis=1).reshape(-1, n)
+    found = rates(np.repeat(times, n + 1), rows).reshape(3, n + 1, n)
+    jacobians = np.swapaxes((found[:, 1:] - found[:, :1]) / taken[:, :, None], 1, 2)
+    matrix = np.eye(3 * n) - h * np.einsum("ij,jab->iajb", _MATRIX, jacobians).reshape(3 * n, 3 * n)
     if not np.isfinite(matrix).all():
-        raise _no_solution(t)
+        raise _no_solution(float(times[0]))
     factors = lu_factor(matrix)
     return lambda residual: np.asarray(lu_solve(factors, residual.ravel()).reshape(3, n))
-
-
-def _jacobian(rhs: RightHandSide, t: float, x: FloatArray, scale: FloatArray) -> FloatArray:
-    """Forward differences are enough: the Jacobian decides how fast Newton converges, not where."""
-    base = rhs(t, x)
-    columns = []
-    for i in range(x.size):
-        shifted = x.copy()
-        shifted[i] += _RELATIVE_STEP * scale[i]
-        columns.append((rhs(t, shifted) - base) / (shifted[i] - x[i]))
-    return np.column_stack(columns)

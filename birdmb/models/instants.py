@@ -12,6 +12,7 @@ from birdmb.models.failures import lifting_line_lost
 from birdmb.topology import Bird
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.shape import WingShape, wing_shape
+from birdmb.wing.stacked import StackedShapes, stacked_shapes
 
 _INSTANTS_KEPT = 8192
 
@@ -23,6 +24,15 @@ class Instant(NamedTuple):
     rates: FloatArray  # (A,) rad/s
     accelerations: FloatArray  # (n,) of the drivers, 0 for the body
     shape: WingShape | None  # with the joints that turn the wing as a whole at zero
+
+
+class StackedInstants(NamedTuple):
+    """What P instants determine, as `Instant`, each array stacked along a first axis."""
+
+    angles: FloatArray  # (P, A)
+    rates: FloatArray  # (P, A)
+    accelerations: FloatArray  # (P, n)
+    shapes: StackedShapes | None
 
 
 @lru_cache(maxsize=2)
@@ -53,6 +63,17 @@ class Instants:
         parts = (np.asarray(part) for part in wing)
         self._kept = _kept((turning, discretisation, *((p.shape, p.tobytes()) for p in parts)))
 
+    def stacked(self, times: FloatArray) -> StackedInstants:
+        """What `times` (P,) s determine."""
+        each = [self.at(t) for t in times.tolist()]
+        shapes = [instant.shape for instant in each if instant.shape is not None]
+        return StackedInstants(
+            np.array([instant.angles for instant in each]),
+            np.array([instant.rates for instant in each]),
+            np.array([instant.accelerations for instant in each]),
+            stacked_shapes(shapes) if shapes else None,
+        )
+
     def at(self, t: float) -> Instant:
         """What time t (s) determines; raises `StateError` if no lifting line fits the wing."""
         instant = self._kept.get(t)
@@ -62,19 +83,20 @@ class Instants:
             instant = self._kept[t] = self._made(t)
         return instant
 
+    def shape(self, t: float, angles: FloatArray, rates: FloatArray) -> WingShape:
+        """The wing at t (s) and these angles and rates (A,), the joints that turn it left at zero.
+
+        Raises `StateError` if no lifting line fits it.
+        """
+        moving = np.arange(angles.size) >= self._turning
+        shape = wing_shape(self._wing, moving * angles, moving * rates, *self._discretisation)
+        if not shape.converged:
+            raise lifting_line_lost(self._bird, t, angles)
+        return shape
+
     def _made(self, t: float) -> Instant:
         angles, rates, accelerations = driven(self._wing, t)
-        shape = None
-        if self._turning:
-            still = np.arange(angles.size) < self._turning
-            shape = wing_shape(
-                self._wing,
-                np.where(still, 0.0, angles),
-                np.where(still, 0.0, rates),
-                *self._discretisation,
-            )
-            if not shape.converged:
-                raise lifting_line_lost(self._bird, t, angles)
+        shape = self.shape(t, angles, rates) if self._turning else None
         of_tree = np.concatenate([np.zeros(BODY_COORDINATES), accelerations, accelerations])
         for shared in (angles, rates, of_tree):
             shared.flags.writeable = False

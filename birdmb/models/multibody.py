@@ -12,12 +12,7 @@ from birdmb.errors import StateError
 from birdmb.models.compiled_calls import COMPILED, calls_compiled_code
 from birdmb.models.determinacy import refuse_undetermined
 from birdmb.models.exudyn_tree import BODY_COORDINATES, ExudynBird, typical_inertias
-from birdmb.models.failures import (
-    lifting_line_lost,
-    overflow_told,
-    refuse_runaway,
-    wing_misplaced,
-)
+from birdmb.models.failures import overflow_told, refuse_runaway, wing_misplaced
 from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.gusts import Gust
@@ -26,8 +21,9 @@ from birdmb.models.instants import Instant, Instants
 from birdmb.models.integration import Integration, Integrator, integration_for
 from birdmb.models.multibody_kernel import air_forces, body_velocity
 from birdmb.models.rigid import RigidModel
-from birdmb.models.springs import Springs
+from birdmb.models.springs import has_two_sides, spring_torques, springs_of
 from birdmb.models.stepped_cycle import SteppedCycle
+from birdmb.models.tree_rates import TreeRates
 from birdmb.models.wing_model import (
     BODY_SCALE,
     BODY_STATES,
@@ -35,7 +31,6 @@ from birdmb.models.wing_model import (
     WingModel,
 )
 from birdmb.topology import Bird
-from birdmb.wing.shape import WingShape, wing_shape
 
 _JOINT_SCALE = (0.5, 10.0)  # rad, rad/s
 _BEATS_TO_SETTLE = 6
@@ -82,12 +77,16 @@ class MultibodyModel(WingModel):
         self.state_units = BODY_UNITS[:free] + ("rad", "rad/s") * len(names)
         compliant = [joint.mode == "compliant" for joint in bird.joints]
         self._compliant = np.array(compliant + [True] * len(hinges), dtype=bool)
-        self._springs = Springs(bird)
+        self._springs = springs_of(bird)
         self.turning = self._joints_that_turn_the_wing_as_a_whole()
         self.prescribed = self._follow_drivers()
-        self._exudyn = self._assembled()
-        self._integration: Integration | None = None
         self._instants = Instants(bird, self.wing, self.discretisation, self.turning)
+        self._tree = TreeRates(
+            bird, self.wing, self.turning, self.airframe, self.prescribed, self._instants
+        )
+        self._refuse_undetermined()
+        self._exudyn = ExudynBird(bird, self._forces, self.prescribed, self.driver_accelerations)
+        self._integration: Integration | None = None
 
     def _options(self) -> dict[str, Any]:
         return {**super()._options(), "integrator": self._integrator}
@@ -123,7 +122,7 @@ class MultibodyModel(WingModel):
     @property
     def has_kinks(self) -> bool:
         """Whether a spring is stiffer to one side."""
-        return self._springs.have_two_sides
+        return has_two_sides(self._springs)
 
     @property
     def mass(self) -> float:
@@ -156,31 +155,50 @@ class MultibodyModel(WingModel):
         """The flight from x0 (n,) at t0 to t1 (s), at the integration's steps or at `times`."""
         grid = np.linspace(t0, t1, self._steps(t0, t1) + 1)
         states = np.empty((grid.size, len(self.state_names)))
-        rates = np.empty_like(states)
         states[0] = np.asarray(x0, dtype=float)
-        for i, t in enumerate(grid):
-            if i > 0:
-                states[i] = self._advanced(states[i - 1], grid[i - 1], t, 1)
-            rates[i] = self.rhs(t, states[i])
-        flight = Flight(self.state_names, grid, states, rates)
+        for i in range(1, grid.size):
+            states[i] = self._advanced(states[i - 1], grid[i - 1], grid[i], 1)
+        flight = Flight(self.state_names, grid, states, self.rates(grid, states))
         return flight if times is None else flight.at(times)
 
     @calls_compiled_code
     def _advanced(self, x: FloatArray, t0: float, t1: float, steps: int) -> FloatArray:
         if self.integration.method == "implicit":
-            return integrate_implicitly(self.rhs, x, t0, t1, steps, self.state_scale)
+            return integrate_implicitly(self.rates, x, t0, t1, steps, self.state_scale)
         q, v = self._exudyn.integrate(*self.coordinates(t0, x), t0, t1, steps)
         return self._state(q, v, f"between t = {t0:.4g} and {t1:.4g} s")
 
     def rhs(self, t: float, x: npt.ArrayLike) -> FloatArray:
         """Rates (n,) of the states at t (s), by exact partition of the equations of motion."""
-        state = np.asarray(x, dtype=float)
-        _, v = self.coordinates(t, state)
-        a, _ = self.accelerations(t, state)
-        u, w, q, theta = self.body_state(state)
-        u_rate, w_rate = body_velocity(theta, a[0], a[1])
-        joints = np.flatnonzero(self._compliant) + BODY_COORDINATES
-        return self._own([u_rate - q * w, w_rate + q * u, a[2], q], v[joints], a[joints])
+        return self.rates(np.array([t]), np.asarray(x, dtype=float)[None, :])[0]
+
+    def rates(self, times: FloatArray, states: FloatArray) -> FloatArray:
+        """Rates (K, n) at `times` (K,) s of `states` (K, n), NaN where these are not finite.
+
+        Raises:
+            StateError: no lifting line fits the wing, or the motion is beyond floating point.
+        """
+        finite = np.isfinite(states).all(axis=1)
+        if not finite.all():
+            found = np.full(states.shape, np.nan)
+            if finite.any():
+                found[finite] = self.rates(times[finite], states[finite])
+            return found
+        body = np.array([self.body_state(x) for x in states])
+        q, v = self._coordinates(times, body, states)
+        air = np.array([self.air_velocity(t) for t in times.tolist()])
+        a = self._tree.accelerations(times, q, v, air)
+        u, w, pitch_rate, theta = body.T
+        held = 0 if self._body_states else BODY_COORDINATES
+        found = np.empty(states.shape)
+        if self._body_states:
+            c, s = np.cos(theta), np.sin(theta)
+            found[:, 0] = a[:, 0] * c - a[:, 1] * s - pitch_rate * w
+            found[:, 1] = a[:, 0] * s + a[:, 1] * c + pitch_rate * u
+            found[:, 2], found[:, 3] = a[:, 2], pitch_rate
+        found[:, self._body_states :: 2] = states[:, self._body_states + 1 :: 2]
+        found[:, self._body_states + 1 :: 2] = a[:, BODY_COORDINATES - held :]
+        return found
 
     def _own(self, body: npt.ArrayLike, angles: FloatArray, rates: FloatArray) -> FloatArray:
         """A state, or its rates, from the body's part (4,) and the compliant joints' parts."""
@@ -197,7 +215,8 @@ class MultibodyModel(WingModel):
         dampers.
         """
         q, v = self.coordinates(t, np.asarray(x, dtype=float))
-        mass, left = self._exudyn.mass_and_forces(t, q, v)
+        (mass,), (bias,) = self._tree.inertia.at(q[None, :], v[None, :])
+        left = bias - self._forces(t, q, v)
         a = self.driver_accelerations(t).copy()
         free = ~self.prescribed
         with overflow_told(self.bird, f"the acceleration at t = {t:.4g} s"):
@@ -244,16 +263,13 @@ class MultibodyModel(WingModel):
         joints = ~self._compliant
         return np.concatenate([body, joints, joints])
 
-    def _assembled(self) -> ExudynBird:
-        tree = ExudynBird(self.bird, self._forces, self.prescribed, self.driver_accelerations)
-        if self._compliant.any():
-            angles, _, _ = driven(self.wing, 0.0)
-            q = np.concatenate([np.zeros(BODY_COORDINATES), angles, angles])
-            self._refuse_undetermined(tree.mass(0.0, q, np.zeros_like(q)))
-        return tree
-
-    def _refuse_undetermined(self, mass: FloatArray) -> None:
-        """Raise `TopologyError` if this mass matrix (n, n) leaves a compliant joint at will."""
+    def _refuse_undetermined(self) -> None:
+        """Raise `TopologyError` if the mass matrix at t = 0 leaves a compliant joint at will."""
+        if not self._compliant.any():
+            return
+        angles, _, _ = driven(self.wing, 0.0)
+        q = np.concatenate([np.zeros(BODY_COORDINATES), angles, angles])[None, :]
+        (mass,), _ = self._tree.inertia.at(q, np.zeros_like(q))
         free = ~self.prescribed
         names = ("X", "Z", "pitch", *self.bird.angle_names, *self.bird.angle_names)
         with overflow_told(self.bird, "the mass matrix"):
@@ -265,14 +281,24 @@ class MultibodyModel(WingModel):
             )
 
     def coordinates(self, t: float, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Coordinates and velocities (n,) of the tree, with X = Z = 0, of state x at time t."""
-        u, w, q, theta = self.body_state(x)
+        """Coordinates and velocities (c,) of the tree, with X = Z = 0, of state x at time t."""
+        q, v = self._coordinates(np.array([t]), self.body_state(x)[None, :], x[None, :])
+        return q[0], v[0]
+
+    def _coordinates(
+        self, times: FloatArray, body: FloatArray, states: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Coordinates and velocities (K, c) of bodies (K, 4) and whole states (K, n)."""
+        u, w, pitch_rate, theta = body.T
         c, s = np.cos(theta), np.sin(theta)
-        angles, rates = self.joint_motion(t, x)
-        return (
-            np.concatenate([[0.0, 0.0, theta], angles, angles]),
-            np.concatenate([[u * c + w * s, -u * s + w * c, q], rates, rates]),
-        )
+        instants = [self.instant(t) for t in times.tolist()]
+        angles = np.array([instant.angles for instant in instants])
+        rates = np.array([instant.rates for instant in instants])
+        angles[:, self._compliant] = states[:, self._body_states :: 2]
+        rates[:, self._compliant] = states[:, self._body_states + 1 :: 2]
+        place = np.column_stack([np.zeros((len(times), 2)), theta])
+        motion = np.column_stack([u * c + w * s, -u * s + w * c, pitch_rate])
+        return np.hstack([place, angles, angles]), np.hstack([motion, rates, rates])
 
     def _state(self, q: FloatArray, v: FloatArray, when: str) -> FloatArray:
         if not (np.isfinite(q).all() and np.isfinite(v).all()):
@@ -299,12 +325,6 @@ class MultibodyModel(WingModel):
         """What time t (s) alone determines."""
         return self._instants.at(t)
 
-    def _shape(self, t: float, angles: FloatArray, rates: FloatArray) -> WingShape:
-        shape = wing_shape(self.wing, angles, rates, *self.discretisation)
-        if not shape.converged:
-            raise lifting_line_lost(self.bird, t, angles)
-        return shape
-
     def _forces(self, t: float, q: FloatArray, v: FloatArray) -> FloatArray:
         """Generalised forces (n,) of air, springs and dampers: Exudyn's user function."""
         if not (np.isfinite(q).all() and np.isfinite(v).all()):
@@ -317,7 +337,7 @@ class MultibodyModel(WingModel):
         with overflow_told(self.bird, f"the force of the air at t = {t:.4g} s"):
             body, torques, clearance = air_forces(
                 self.wing,
-                instant.shape or self._shape(t, angles, rates),
+                instant.shape or self._instants.shape(t, angles, rates),
                 self.turning,
                 angles,
                 rates,
@@ -332,14 +352,8 @@ class MultibodyModel(WingModel):
         torques += self._spring_torques(instant, angles, rates)
         return np.concatenate([body, torques, torques])
 
-    def spring_forces(self, t: float, q: FloatArray, v: FloatArray) -> FloatArray:
-        """Generalised forces (n,) of springs and dampers alone."""
-        joints = slice(BODY_COORDINATES, BODY_COORDINATES + self._compliant.size)
-        torques = self._spring_torques(self.instant(t), q[joints], v[joints])
-        return np.concatenate([np.zeros(BODY_COORDINATES), torques, torques])
-
     def _spring_torques(self, driver: Instant, angles: FloatArray, rates: FloatArray) -> FloatArray:
-        return self._springs.torques(angles - driver.angles, rates - driver.rates)
+        return spring_torques(self._springs, angles - driver.angles, rates - driver.rates)
 
     def driver_accelerations(self, t: float) -> FloatArray:
         """Accelerations (n,) of the drivers, 0 for the body; only prescribed joints follow."""

@@ -220,7 +220,7 @@ def test_a_wing_that_runs_away_into_a_division_by_zero_is_told(shipped, cycle, m
     def no_wing(*_):
         raise ZeroDivisionError
 
-    monkeypatch.setattr("birdmb.models.multibody.wing_shape", no_wing)
+    monkeypatch.setattr("birdmb.models.instants.wing_shape", no_wing)
     with pytest.raises(birdmb.StateError, match="diverged"):
         model.flow(cycle.x0, 0.0, 0.1)
 
