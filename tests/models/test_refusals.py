@@ -94,3 +94,9 @@ def scaled(bird, factor):
         values[f"segments.{bone}.mass"] = segment.mass * factor**3
         values[f"segments.{bone}.inertia"] = (np.array(segment.inertia) * factor**5).tolist()
     return bird.with_values(values)
+
+
+@pytest.mark.parametrize("kind", [birdmb.RigidModel, birdmb.MultibodyModel])
+def test_motions_beyond_any_flight_are_not_integrated(coarse, kind):
+    with pytest.raises(birdmb.StateError, match=r"runs away: u = 1e\+08 at t = 0 s"):
+        kind(coarse, steps_per_beat=24).flow([1e8, 0.0, 0.0, 0.0], 0.0, 0.25)

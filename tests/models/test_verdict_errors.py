@@ -83,6 +83,7 @@ def test_checks_that_fail_come_with_the_flight(coarse):
         ((3.0, 6.0, 0.0, np.radians(104)), r"stands on its tail .*104 deg"),
         ((3.0, 6.0, 0.0, np.radians(-120)), "lies on its back"),
         ((2.0, -9.0, 0.0, np.radians(60)), "it moves backwards"),
+        ((-1.0, 9.0, 0.0, np.radians(60)), "the body moves backwards"),
     ],
 )
 def test_what_is_no_flight(rigid_cycle, state, why):

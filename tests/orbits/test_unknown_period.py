@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from orbit_systems import ROESSLER, roessler, stuart_landau, van_der_pol
@@ -13,6 +15,13 @@ def test_van_der_pol(segments, method):
     assert cycle.multipliers == pytest.approx([1, 8.59695e-4], abs=2e-8)
     assert cycle.trivial_index == 0
     assert cycle.stability == "stable"
+
+
+def test_a_trivial_multiplier_far_outside_its_bar_leaves_the_verdict_open():
+    cycle = find_limit_cycle(van_der_pol(1), period_guess=6.5)
+    off = replace(cycle, multipliers=cycle.multipliers + np.array([1e-4, 0.0]))
+    assert (cycle.stability, off.stability) == ("stable", "undecided")
+    assert "trivial multiplier is off 1 by 1.0e-04" in off.remarks[0]
 
 
 def test_stiffer_van_der_pol():
