@@ -53,6 +53,22 @@ def load_evaluations(prescribed: birdmb.Bird, compliant: birdmb.Bird) -> tuple[f
     return fixed, free
 
 
+def right_hand_sides(bird: birdmb.Bird) -> tuple[float, float]:
+    """Seconds of one evaluation of the multibody rates: of many in a call, and of a single one.
+
+    Those of a Jacobian by central differences at 27 instants.
+    """
+    model = birdmb.MultibodyModel(bird)
+    instants = bird.period * np.arange(27) / 27
+    near = np.array([model.driven_state(t) for t in instants])
+    shifts = np.diag(1e-5 * model.state_scale)
+    states = np.concatenate([near[:, None] + shifts, near[:, None] - shifts], axis=1)
+    times = np.repeat(instants, states.shape[1])
+    rows = states.reshape(times.size, -1)
+    many = best(lambda: model.rates(times, rows), inner=3) / times.size
+    return many, best(lambda: model.rhs(times[5], rows[5]), inner=100)
+
+
 def integrations(bird: birdmb.Bird) -> tuple[float, float, int]:
     """Seconds of a beat in Exudyn with and without the air's loads; evaluations of the forces."""
     model = birdmb.MultibodyModel(bird)
@@ -104,6 +120,9 @@ def main() -> None:
     fixed, free = load_evaluations(ibis, compliant)
     table.add_row("loads and derivatives, joints prescribed", f"{fixed * 1e6:.1f} us", "as called")
     table.add_row("loads, shoulder compliant", f"{free * 1e6:.1f} us", "as called")
+    many, single = right_hand_sides(compliant)
+    table.add_row("multibody rates, many in a call", f"{many * 1e6:.0f} us", "each")
+    table.add_row("multibody rates, one in a call", f"{single * 1e6:.0f} us", "")
     for name, bird, kind in (
         ("rigid cycle with multipliers", ibis, birdmb.RigidModel),
         ("multibody cycle with multipliers, one compliant joint", compliant, birdmb.MultibodyModel),

@@ -28,7 +28,7 @@ def multipliers(cycle: FlightCycle) -> Figure:
 
 def draw_labelled_multipliers(axes: Axes, cycle: FlightCycle) -> None:
     """Draw the multipliers, each with its modulus and doubling or halving time beside it."""
-    draw_multipliers(axes, cycle.multipliers, cycle.multiplier_errors)
+    draw_multipliers(axes, cycle.multipliers, cycle.verdict_errors)
     axes.set_title("")
     axes.axhline(0, color="0.9", lw=0.8, zorder=0)
     axes.axvline(0, color="0.9", lw=0.8, zorder=0)

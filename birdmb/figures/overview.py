@@ -39,6 +39,15 @@ def overview(cycle: FlightCycle) -> Figure:
 
 
 def _verdict(cycle: FlightCycle) -> str:
+    """The verdict for a title; what speaks against calling this a flight comes first."""
+    if cycle.why_no_flight is not None:
+        return f"not a flight, {_stability(cycle)}"
+    return _stability(cycle)
+
+
+def _stability(cycle: FlightCycle) -> str:
+    if cycle.failed_checks:
+        return "undecided, for the program's own checks fail"
     fastest = (
         f"{cycle.doubling_times[0]:.2g} s ({cycle.doubling_times[0] / cycle.period:.2g} beats)"
     )
@@ -46,7 +55,7 @@ def _verdict(cycle: FlightCycle) -> str:
         return f"unstable, disturbances double in {fastest}"
     if cycle.stability == "stable":
         return f"stable, disturbances halve in {fastest} or less"
-    return "on the verge of stability"
+    return "undecided, a multiplier is on the unit circle within its error"
 
 
 def _write_numbers(axes: Axes, cycle: FlightCycle) -> None:

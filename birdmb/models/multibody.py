@@ -189,7 +189,6 @@ class MultibodyModel(WingModel):
         air = np.array([self.air_velocity(t) for t in times.tolist()])
         a = self._tree.accelerations(times, q, v, air)
         u, w, pitch_rate, theta = body.T
-        held = 0 if self._body_states else BODY_COORDINATES
         found = np.empty(states.shape)
         if self._body_states:
             c, s = np.cos(theta), np.sin(theta)
@@ -197,7 +196,7 @@ class MultibodyModel(WingModel):
             found[:, 1] = a[:, 0] * s + a[:, 1] * c + pitch_rate * u
             found[:, 2], found[:, 3] = a[:, 2], pitch_rate
         found[:, self._body_states :: 2] = states[:, self._body_states + 1 :: 2]
-        found[:, self._body_states + 1 :: 2] = a[:, BODY_COORDINATES - held :]
+        found[:, self._body_states + 1 :: 2] = a[:, BODY_COORDINATES if self._body_states else 0 :]
         return found
 
     def _own(self, body: npt.ArrayLike, angles: FloatArray, rates: FloatArray) -> FloatArray:

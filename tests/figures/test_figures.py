@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -148,3 +149,17 @@ def test_figures_import_no_model():
         "or m == 'matplotlib.pyplot'])"
     )
     assert subprocess.check_output([sys.executable, "-c", script], text=True) == "[]\n"
+
+
+@pytest.mark.parametrize(
+    ("doubt", "says"),
+    [
+        ({"failed_checks": ("the energy is off",)}, ": undecided, for the program's own checks"),
+        ({"why_no_flight": "it moves backwards"}, ": not a flight, "),
+    ],
+)
+def test_the_overview_says_first_what_speaks_against_the_numbers(cycle, doubt, says):
+    doubtful = replace(cycle)
+    vars(doubtful).update(doubt)
+    titles = [part.get_suptitle() for part in figures.overview(doubtful).subfigs]
+    assert any(says in title for title in titles)
