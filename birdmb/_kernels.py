@@ -160,7 +160,7 @@ def _write_whole(path: Path, content: bytes) -> None:
 def _warn_once(folders: str) -> None:
     warnings.warn(
         f"The compiled kernels cannot be kept in {folders}: every process compiles them again, "
-        "which takes up to a minute; let NUMBA_CACHE_DIR name a folder that can be written.",
+        "which takes a minute or two; let NUMBA_CACHE_DIR name a folder that can be written.",
         KernelCacheWarning,
         stacklevel=2,
     )

@@ -107,5 +107,5 @@ class _Compilation(event.Listener):
 def _announcement() -> str:
     """What to say before the first compilation."""
     if not any_cached():
-        return "Compiling the kernels, once per installation (up to a minute) ..."
+        return "Compiling the kernels, once per installation (a minute or two) ..."
     return "Compiling kernels that are new or have changed since the last run ..."
