@@ -12,6 +12,7 @@ from birdmb.orbits.errors import (
     ConvergenceError,
     EquilibriumError,
     NotClosedError,
+    NotSmoothError,
     SingularJacobianError,
 )
 from birdmb.orbits.floquet import floquet
@@ -43,6 +44,7 @@ __all__ = [
     "Model",
     "MultiplierSolver",
     "NotClosedError",
+    "NotSmoothError",
     "OdeModel",
     "PerturbedResponse",
     "SingularJacobianError",

@@ -3,19 +3,70 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+import xarray as xr
 
 from birdmb.orbits.newton import Iteration
+from birdmb.orbits.ode import Trajectory
 from birdmb.orbits.result import FloquetResult
+from birdmb.orbits.trigonometric import interpolated
+
+OrbitMethod = Literal["collocation", "shooting"]
 
 
 @dataclass(frozen=True)
 class LimitCycle(FloquetResult):
     """A periodic orbit found by `find_limit_cycle`, with its Floquet multipliers.
 
-    A model may name its own subclass as `limit_cycle_type`, to add what it knows of its orbits.
+    A model may name its own subclass as `limit_cycle_type`, to add what it knows of its orbits. Of
+    a collocated orbit, `points` are the states at the nodes, `segment_jacobians` lead from node to
+    node, and `residual` is `state_error` in the units of the largest scale.
 
     Attributes:
         iterations: the accepted iterations of the search, the guess first.
+        method: "collocation" or "shooting".
+        method_reason: why shooting was taken; empty for collocation.
+        state_error: largest error of the states of a collocated orbit, in units of the state scale:
+            what half as many nodes again make of it; 0 for shooting.
     """
 
     iterations: tuple[Iteration, ...]
+    method: OrbitMethod = "shooting"
+    method_reason: str = ""
+    state_error: float = 0.0
+
+    @property
+    def nodes(self) -> int | None:
+        """Number of collocation nodes; `None` for shooting."""
+        return len(self.points) if self.method == "collocation" else None
+
+    def trajectory(self, times: npt.ArrayLike | None = None) -> Trajectory:
+        """States at `times` (k,) in s, any times: the orbit is continued periodically.
+
+        By default 201 times over the period from the start time. A collocated orbit is its
+        trigonometric interpolant, a shot one is flown from the starts of its segments.
+        """
+        if self.method == "shooting":
+            return super().trajectory(times)
+        if times is None:
+            at = self.start_time + np.linspace(0, self.period, 201)
+        else:
+            at = np.asarray(times, float)
+        phases = (at - self.start_time) / self.period
+        return Trajectory(at, interpolated(self.points, phases))
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return the orbit as `FloquetResult.to_xarray` does, with the method that found it."""
+        return (
+            super()
+            .to_xarray()
+            .assign_attrs(
+                method=self.method,
+                method_reason=self.method_reason,
+                nodes=self.nodes or 0,
+                state_error=self.state_error,
+            )
+        )

@@ -107,6 +107,10 @@ class ConvergenceError(OrbitError):
         return str(self.args[0])
 
 
+class NotSmoothError(ConvergenceError):
+    """The orbit is too rough for collocation: its error does not fall off with the nodes."""
+
+
 class SingularJacobianError(ConvergenceError):
     """The shooting equations have no unique solution at the point reached."""
 

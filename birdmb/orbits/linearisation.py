@@ -92,7 +92,15 @@ def _trivial(
     if not equations.autonomous:
         return None
     velocity = equations.segments.velocities(points, period)[0]
-    if np.abs(velocity * period / equations.segments.scale).max() < _STANDSTILL:
+    return trivial_mode(spectrum, velocity * period, equations.segments.scale)
+
+
+def trivial_mode(spectrum: Spectrum, velocity: FloatArray, scale: FloatArray) -> int | None:
+    """Position of the mode along an autonomous orbit with `velocity` (n,) per period at its start.
+
+    `None` for one that stands still.
+    """
+    if np.abs(velocity / scale).max() < _STANDSTILL:
         return None
     # The mode along the orbit, not the multiplier nearest 1: at a fold there are two of those.
     return int(np.abs(spectrum.left_modes.conj().T @ velocity).argmax())

@@ -6,10 +6,11 @@ import itertools
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Literal, Protocol
+from typing import Literal, Protocol, get_args
 
 import numpy as np
 import scipy.sparse as sp
+from scipy.linalg import lapack
 from scipy.sparse.linalg import LinearOperator, onenormest, splu
 from scipy.sparse.linalg import norm as sparse_norm
 
@@ -17,7 +18,9 @@ from birdmb._typing import FloatArray
 from birdmb.errors import StateError
 from birdmb.orbits.errors import ArgumentError, ConvergenceError, SingularJacobianError
 
-SolverMethod = Literal["newton", "levenberg-marquardt"]
+Damping = Literal["line-search", "levenberg-marquardt"]
+# Sparse for shooting over many segments, dense for collocation.
+Matrix = sp.csc_array | FloatArray
 
 _SHORTEST_DAMPING = 2.0**-12
 _SUFFICIENT_DECREASE = 1e-4
@@ -60,7 +63,7 @@ class Equations(Protocol):
     def residual(self, u: FloatArray) -> FloatArray:
         """Residual (N,); StateError where it is not defined."""
 
-    def jacobian(self, u: FloatArray) -> sp.csc_array:
+    def jacobian(self, u: FloatArray) -> Matrix:
         """Derivative (N, N) of the residual."""
 
     @property
@@ -93,12 +96,36 @@ class _Step:
     reused: bool = False
 
 
-def factorise(matrix: sp.csc_array) -> tuple[Callable[[FloatArray], FloatArray], float]:
-    """Return the solver of a sparse LU factorisation and the condition number (1-norm estimate).
+def factorise(matrix: Matrix) -> tuple[Callable[[FloatArray], FloatArray], float]:
+    """Return the solver of an LU factorisation and the condition number (1-norm estimate).
 
     LinAlgError if the matrix is singular to working precision. Entries are in scaled units, so the
     condition of a matrix that is small as a whole is taken against unit size.
     """
+    if isinstance(matrix, np.ndarray):
+        solver, condition = _factorise_dense(matrix)
+    else:
+        solver, condition = _factorise_sparse(matrix)
+    if not condition <= _SINGULAR_CONDITION:
+        raise np.linalg.LinAlgError
+    return solver, condition
+
+
+def _factorise_dense(matrix: FloatArray) -> tuple[Callable[[FloatArray], FloatArray], float]:
+    size = float(np.abs(matrix).sum(axis=0).max())
+    lu, pivots, singular = lapack.dgetrf(matrix)
+    if singular or not np.isfinite(size):
+        raise np.linalg.LinAlgError
+    reciprocal, _ = lapack.dgecon(lu, size)
+    inverse_size = 1.0 / (reciprocal * size) if reciprocal > 0 else np.inf
+
+    def solve_dense(right: FloatArray) -> FloatArray:
+        return np.asarray(lapack.dgetrs(lu, pivots, right)[0])
+
+    return solve_dense, inverse_size * max(1.0, size)
+
+
+def _factorise_sparse(matrix: sp.csc_array) -> tuple[Callable[[FloatArray], FloatArray], float]:
     try:
         lu, transposed = splu(matrix), splu(matrix.T.tocsc())
     except RuntimeError as error:  # SuperLU's word for an exact zero pivot
@@ -107,8 +134,6 @@ def factorise(matrix: sp.csc_array) -> tuple[Callable[[FloatArray], FloatArray],
         matrix.shape, matvec=lu.solve, rmatvec=transposed.solve, dtype=np.float64
     )
     condition = float(onenormest(inverse, t=1) * max(1.0, sparse_norm(matrix, 1)))
-    if condition > _SINGULAR_CONDITION:
-        raise np.linalg.LinAlgError
     return lu.solve, condition
 
 
@@ -116,15 +141,15 @@ def solve(
     equations: Equations,
     u: FloatArray,
     *,
-    method: SolverMethod,
+    damping: Damping,
     tolerance: float,
     max_iterations: int,
     callback: Callable[[Iteration], None] | None = None,
-    first_jacobian: sp.csc_array | None = None,
+    first_jacobian: Matrix | None = None,
 ) -> tuple[FloatArray, FloatArray, tuple[Iteration, ...]]:
     """Solve equations(u) = 0 from u.
 
-    Newton: line search by halving on the Euclidean norm. Where Jacobians are dear, a step with the
+    Line search: by halving, on the Euclidean norm. Where Jacobians are dear, a step with the
     last one, updated from the steps since (Broyden 1965), is tried first and kept only if it cuts
     the residual to a third; `first_jacobian` (N, N), of a neighbouring solution for instance, is
     what the first such step takes. Levenberg-Marquardt: the parameter is a factor times the
@@ -138,11 +163,12 @@ def solve(
         SingularJacobianError: Newton met a singular Jacobian.
         ConvergenceError: no step reduces the residual, or `max_iterations` were taken.
     """
-    if method not in {"newton", "levenberg-marquardt"}:
-        raise ArgumentError(f'method must be "newton" or "levenberg-marquardt", not "{method}".')
+    if damping not in get_args(Damping):
+        choice = " or ".join(f'"{each}"' for each in get_args(Damping))
+        raise ArgumentError(f'damping must be {choice}, not "{damping}".')
     point = _Point(u, equations.residual(u))
     stepper: _Newton | _LevenbergMarquardt = _LevenbergMarquardt(equations)
-    if method == "newton":
+    if damping == "line-search":
         stepper = _Newton(equations, first_jacobian)
     history: list[Iteration] = []
 
@@ -184,15 +210,15 @@ def solve(
         except np.linalg.LinAlgError:
             raise failure(
                 SingularJacobianError,
-                "the shooting Jacobian became singular",
-                "The orbit may be at a fold or one of a family; try levenberg-marquardt, another "
-                "period or another guess.",
+                "the Jacobian became singular",
+                "The orbit may be at a fold or one of a family; try levenberg-marquardt damping, "
+                "another period or another guess.",
             ) from None
         if step is None:
             raise failure(
                 ConvergenceError,
                 "no step along the search direction reduces the closure error",
-                "Try a closer guess, more segments or the other method; if the error is small "
+                "Try a closer guess, more segments or the other damping; if the error is small "
                 "already, the accuracy of the flow limits it: ask for a larger tolerance.",
             )
         length = float(np.linalg.norm(step.point.u - point.u))
@@ -210,7 +236,7 @@ def _try(equations: Equations, u: FloatArray, below: float) -> _Point | None:
 
 
 class _Newton:
-    def __init__(self, equations: Equations, first_jacobian: sp.csc_array | None) -> None:
+    def __init__(self, equations: Equations, first_jacobian: Matrix | None) -> None:
         self._equations = equations
         self._broyden: _Broyden | None = None
         if first_jacobian is not None and equations.dear_jacobian:
@@ -278,7 +304,7 @@ class _LevenbergMarquardt:
         self._factor = 1e-2
 
     def advance(self, point: _Point) -> _Step | None:
-        jacobian = self._equations.jacobian(point.u)
+        jacobian = sp.csc_array(self._equations.jacobian(point.u))
         n = len(point.u)
         right = np.concatenate([-point.residual, np.zeros(n)])
         while self._factor <= _LARGEST_LM:

@@ -52,6 +52,38 @@ class HasRhs(Protocol):
 
 
 @runtime_checkable
+class HasRates(Protocol):
+    """The model evaluates its right-hand side at many instants in one call."""
+
+    def rates(self, times: FloatArray, states: FloatArray, /) -> FloatArray:
+        """Time derivatives (K, n) at `times` (K,) of `states` (K, n)."""
+
+
+@runtime_checkable
+class HasJacobian(Protocol):
+    """The model differentiates its right-hand side."""
+
+    def jacobian(self, t: float, x: FloatArray, /) -> FloatArray:
+        """Derivative (n, n) of the right-hand side with respect to the state."""
+
+
+@runtime_checkable
+class HasRateJacobians(Protocol):
+    """The model differentiates its right-hand side at many instants in one call."""
+
+    def rate_jacobians(self, times: FloatArray, states: FloatArray, /) -> FloatArray:
+        """Derivatives (K, n, n) of the rates with respect to `states` (K, n), at `times` (K,)."""
+
+
+@runtime_checkable
+class HasGuessedPath(Protocol):
+    """The model proposes a closed path near its orbit without integrating."""
+
+    def guess_along(self, times: FloatArray, /) -> FloatArray:
+        """States (K, n) at `times` (K,)."""
+
+
+@runtime_checkable
 class HasDivergence(Protocol):
     """The model integrates the divergence of its right-hand side (for Liouville's formula)."""
 

@@ -1,85 +1,95 @@
-"""Finding a periodic orbit from a guess."""
+"""Finding a periodic orbit from a guess, by the method that suits the model."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import Executor
-from contextlib import suppress
-from typing import Literal, cast
+from typing import Literal, get_args
 
 import numpy as np
 import numpy.typing as npt
-import scipy.sparse as sp
 
-from birdmb._typing import FloatArray
-from birdmb.errors import StateError
-from birdmb.orbits.agreement import jacobian_gaps
+from birdmb.errors import OrbitError, StateError
+from birdmb.orbits.collocation_search import search_by_collocation
 from birdmb.orbits.cycle import LimitCycle
 from birdmb.orbits.errors import (
     ArgumentError,
-    ConvergenceError,
-    EquilibriumError,
+    NotSmoothError,
     require_tolerance,
 )
-from birdmb.orbits.linearisation import linearise
-from birdmb.orbits.newton import Iteration, SolverMethod, solve
-from birdmb.orbits.periodic import periodic_multipliers
-from birdmb.orbits.periodicity import require_period
-from birdmb.orbits.problem import HasInitialGuess, HasLimitCycleType, Model
-from birdmb.orbits.scales import SAMPLES_PER_SEGMENT, declared_scale, lay_out, outgrown
-from birdmb.orbits.segments import Segments, choose_jacobian, sample
-from birdmb.orbits.shooting import ShootingEquations
+from birdmb.orbits.newton import Damping, Iteration
+from birdmb.orbits.problem import HasRates, HasRhs, Model
+from birdmb.orbits.result import FloquetResult
+from birdmb.orbits.shooting_search import search_by_shooting
 
-# A cycle of less than this part of the state scale is the neighbourhood of an equilibrium.
-_SMALLEST_AMPLITUDE = 1e-5
-_Found = tuple[ShootingEquations, FloatArray, FloatArray, tuple[Iteration, ...]]
+SearchMethod = Literal["auto", "collocation", "shooting"]
 
-# Each can shrink a state by 1e7.
-_MOST_RESCALINGS = 3
+# An automatic choice goes on to shooting rather than to more nodes, or to more unknowns, than this.
+_MOST_NODES_BY_CHOICE = 129
+_MOST_UNKNOWNS_BY_CHOICE = 1000
+_MOST_NODES = 1025
+# What collocation left unfinished is a better guess than the one it began with, if it is this near.
+_NEAR = 0.01
 
 
 def find_limit_cycle(
     model: Model,
-    guess: npt.ArrayLike | None = None,
+    guess: npt.ArrayLike | FloquetResult | None = None,
     *,
+    method: SearchMethod = "auto",
     period_guess: float | None = None,
-    segments: int = 1,
     start_time: float = 0.0,
-    method: SolverMethod = "newton",
+    damping: Damping = "line-search",
     tolerance: float = 1e-9,
     max_iterations: int = 50,
+    nodes: int | None = None,
+    accuracy: float = 1e-7,
+    segments: int | None = None,
     jacobian: Literal["auto", "variational", "finite-differences"] = "auto",
     jacobian_guess: npt.ArrayLike | None = None,
     executor: Executor | None = None,
     callback: Callable[[Iteration], None] | None = None,
 ) -> LimitCycle:
-    """Find a periodic orbit of a model by multiple shooting, and its Floquet multipliers.
+    """Find a periodic orbit of a model and its Floquet multipliers.
 
-    Forced systems (`model.period` given): the states at the starts of the segments are unknown.
-    Autonomous ones (`model.period` is `None`): so is the period. Only steps that reduce the closure
-    error are accepted. Where the state scale is taken from the guess and does not fit the orbit
-    found, the search goes on with that of the orbit, its iterations numbered anew. Sources: Keller
-    (1968); Seydel (2010), chapter 7.
+    Two methods. Fourier collocation satisfies the right-hand side at N equidistant nodes of the
+    period, by a trigonometric interpolant; N grows until the orbit's error is below `accuracy`.
+    It is fast and accurate where the orbit is smooth, however unstable or stiff, and needs the
+    model's `rhs` or `rates`. Multiple shooting closes the model's own flow over M segments; it
+    needs no smoothness. "auto" takes collocation where it can and goes on to shooting where it
+    fails; `method_reason` of the result says why.
+
+    Forced systems (`model.period` given): the states are unknown. Autonomous ones (`model.period`
+    is `None`): so is the period. Only steps that reduce the residual are accepted. Where the state
+    scale is taken from the guess and does not fit the orbit found, the search goes on with that of
+    the orbit. Sources: Trefethen (2000), chapter 3, and Boyd (2001) for collocation; Keller (1968)
+    and Seydel (2010), chapter 7, for shooting.
 
     Args:
         model: anything that satisfies `birdmb.orbits.Model`.
-        guess: state (n,) at `start_time`, or states (segments, n) at the starts of the segments; by
-            default `model.initial_guess()`.
-        period_guess: guess of the period in s, needed if and only if the system is autonomous.
-        segments: number M of shooting segments; more of them tame strongly unstable orbits.
+        guess: state (n,) at `start_time`, states (K, n) at K even instants of the period, or an
+            orbit found before; by default what the model proposes (`guess_along` or
+            `initial_guess`). Shooting takes the states at the starts of its segments.
+        method: "collocation", "shooting" or "auto".
+        period_guess: guess of the period in s, needed if and only if the system is autonomous; that
+            of an orbit given as guess is its default.
         start_time: time of the first state, in s.
-        method: "newton" (line search) or "levenberg-marquardt" (takes longer, starts further away).
-        tolerance: Euclidean norm of the closure errors accepted, in units of the state scale; at
-            most 0.01.
-        max_iterations: accepted steps allowed.
-        jacobian: "variational" where the model differentiates its flow, "finite-differences"
-            (central), or "auto": the first where possible and not contradicted by differences of
-            the flow.
-        jacobian_guess: segment Jacobians (segments, n, n) of an orbit nearby, such as the
-            `segment_jacobians` of the one that the guess comes from. Newton's method tries its
-            first steps with them where it would have to find its own by differences; the
-            linearisation of the orbit that is found does not depend on them.
-        executor: spreads flows over workers; results do not depend on it.
+        damping: how steps of Newton's method are shortened: "line-search", or
+            "levenberg-marquardt" (takes longer, starts further away).
+        tolerance: Euclidean norm of the residual accepted, in units of the state scale; at most
+            0.01. Of collocation, the root mean square of the slopes' mismatch in a period.
+        max_iterations: accepted steps allowed, of collocation with each number of nodes.
+        nodes: number N of nodes, odd; by default as many as `accuracy` needs.
+        accuracy: largest error of the states accepted by collocation, in units of their scale.
+        segments: number M of shooting segments, by default 1; more of them tame strongly unstable
+            orbits. Given, it makes "auto" choose shooting.
+        jacobian: of shooting: "variational" where the model differentiates its flow,
+            "finite-differences" (central), or "auto": the first where possible and not contradicted
+            by differences of the flow. Anything but "auto" makes "auto" choose shooting.
+        jacobian_guess: of shooting: segment Jacobians (segments, n, n) of an orbit nearby. Newton's
+            method tries its first steps with them where it would have to find its own by
+            differences; the linearisation of the orbit that is found does not depend on them.
+        executor: spreads the flows of shooting over workers; results do not depend on it.
         callback: called with every `Iteration` as it is accepted, the guess first.
 
     Returns:
@@ -87,167 +97,92 @@ def find_limit_cycle(
 
     Raises:
         ArgumentError: a guess of the wrong shape or not finite, a missing or superfluous period
-            guess, a number out of range, or a period in which the right-hand side does not repeat.
-        StateError: the flow fails at the guess.
+            guess, a number out of range, options of one method given to the other, or a period in
+            which the right-hand side does not repeat.
+        StateError: the right-hand side or the flow fails at the guess.
         ConvergenceError: no orbit was found; it keeps the best point.
+        NotSmoothError: collocation was asked for and the orbit is too rough for it.
         SingularJacobianError: the equations have no unique solution where the search ended.
         EquilibriumError: the search ended on an equilibrium, or at period zero.
     """
+    if method not in get_args(SearchMethod):
+        choice = ", ".join(f'"{each}"' for each in get_args(SearchMethod))
+        raise ArgumentError(f'method must be one of {choice}, not "{method}".')
     require_tolerance("tolerance", tolerance)
+    require_tolerance("accuracy", accuracy)
     if max_iterations < 1:
         raise ArgumentError(f"max_iterations must be at least 1, not {max_iterations}.")
-    autonomous, period = _period(model, period_guess)
-    jacobian_method = choose_jacobian(model, jacobian)
-    start = _proposal(model) if guess is None else guess
-
-    def search(
-        points: FloatArray, period: float, scale: FloatArray, first: npt.ArrayLike | None = None
-    ) -> _Found:
-        work = Segments(model, scale, start_time, jacobian_method, executor)
-        equations = ShootingEquations(work, period, autonomous)
-        first_jacobian = _first_jacobian(equations, points, period, first)
-        u = equations.pack(points, period)
-
-        def solved(equations: ShootingEquations) -> _Found:
-            found = solve(
-                equations,
-                u,
-                method=method,
+    if isinstance(guess, FloquetResult) and period_guess is None and model.period is None:
+        period_guess = guess.period
+    shooting = _options_of_shooting(segments, jacobian)
+    reason = shooting or _without_rhs(model)
+    if method == "collocation" and reason:
+        raise ArgumentError(f'method="collocation" cannot be taken: {reason}.')
+    if nodes is not None and (method == "shooting" or reason):
+        raise ArgumentError("nodes are of collocation; shooting takes segments.")
+    start = guess
+    if method != "shooting" and not reason:
+        try:
+            return search_by_collocation(
+                model,
+                guess,
+                period_guess=period_guess,
+                start_time=start_time,
+                damping=damping,
                 tolerance=tolerance,
                 max_iterations=max_iterations,
+                nodes=nodes,
+                accuracy=accuracy,
+                most_nodes=_most_nodes(model, method),
                 callback=callback,
-                first_jacobian=first_jacobian,
             )
-            return equations, *found
-
-        try:
-            return solved(equations)
-        except ConvergenceError as error:
-            best = error.history[-1]
-            if autonomous:
-                _reject_equilibrium(work, best.x, best.period, error.residual, error.history)
-            if not _misled(equations, best):
+        except ArgumentError:
+            raise
+        except (OrbitError, StateError) as error:
+            if method == "collocation" or nodes is not None:
                 raise
-            if jacobian == "auto":
-                # On the orbit that these lead to, the two are compared again.
-                return equations, *solved(equations.by_differences())[1:]
-            raise type(error)(
-                f"{error} The variational equations contradict differences of the flow there: the "
-                f"right-hand side jumps, or a Jacobian given to the model is wrong; take "
-                f'jacobian="finite-differences".',
-                error.best_x,
-                error.residual,
-                error.history,
-            ) from error
-
-    try:
-        scale, points = lay_out(model, start, start_time, period, segments)
-        require_period(model, points[0], scale, start_time, period)
-        equations, u, residual, iterations = search(points, period, scale, jacobian_guess)
-    except StateError as error:
-        raise StateError(f"The search cannot start from this guess: {error}") from error
-    if declared_scale(model) is None:
-        for _ in range(_MOST_RESCALINGS):
-            points, period = equations.unpack(u)
-            fitting = outgrown(equations.segments.scale, _along(equations.segments, points, period))
-            if fitting is None:
-                break
-            # What round-off leaves of an orbit at rest need not close on a scale of its own.
-            with suppress(ConvergenceError, StateError):
-                equations, u, residual, further = search(points, period, fitting)
-                iterations += further
-    points, period = equations.unpack(u)
-    if autonomous:
-        closure = equations.closure(residual)
-        _reject_equilibrium(equations.segments, points[0], period, closure, iterations)
-    kind = model.limit_cycle_type if isinstance(model, HasLimitCycleType) else LimitCycle
-    found = linearise(equations, points, period, periodic_multipliers, residual, jacobian == "auto")
-    return cast("LimitCycle", kind(**found, iterations=iterations))
-
-
-def _misled(equations: ShootingEquations, best: Iteration) -> bool:
-    """Whether the variational equations are not the derivative of the flow at the point reached."""
-    work = equations.segments
-    if work.jacobian_method != "variational":
-        return False
-    points = best.x[None, :]
-    try:
-        factors, ends = work.jacobians(points, best.period), work.ends(points, best.period)
-        return bool(jacobian_gaps(work, points, best.period, factors, ends).any())
-    except StateError:
-        return False
-
-
-def _along(work: Segments, points: FloatArray, period: float) -> FloatArray:
-    """States (k, n) along the orbit through `points` (M, n)."""
-    grid = np.linspace(work.start, work.start + period, len(points) + 1)
-    parts = np.arange(SAMPLES_PER_SEGMENT) / SAMPLES_PER_SEGMENT
-    return np.concatenate(
-        [
-            sample(work.model, x, t0, t0 + (t1 - t0) * parts, t1)
-            for x, t0, t1 in zip(points, grid[:-1], grid[1:], strict=True)
-        ]
+            reason = f"collocation failed: {error}"
+            if isinstance(error, NotSmoothError):
+                reason = str(error).partition(" Take method=")[0]
+                if error.residual < _NEAR:
+                    start = error.best_x
+                    period_guess = error.history[-1].period if period_guess else None
+    return search_by_shooting(
+        model,
+        _points(start, segments or 1),
+        period_guess=period_guess,
+        segments=segments or 1,
+        start_time=start_time,
+        damping=damping,
+        tolerance=tolerance,
+        max_iterations=max_iterations,
+        jacobian=jacobian,
+        jacobian_guess=jacobian_guess,
+        executor=executor,
+        callback=callback,
+        reason=reason or 'method="shooting" was asked for',
     )
 
 
-def _first_jacobian(
-    equations: ShootingEquations,
-    points: FloatArray,
-    period: float,
-    guess: npt.ArrayLike | None,
-) -> sp.csc_array | None:
-    if guess is None:
-        return None
-    factors, (m, n) = np.array(guess, float), points.shape
-    if factors.shape != (m, n, n) or not np.isfinite(factors).all():
-        raise ArgumentError(
-            f"jacobian_guess must hold finite values of shape ({m}, {n}, {n}), not of "
-            f"{factors.shape}."
-        )
-    return equations.assemble(points, period, factors) if equations.dear_jacobian else None
+def _options_of_shooting(segments: int | None, jacobian: str) -> str:
+    if segments is not None:
+        return "segments are of shooting"
+    return "" if jacobian == "auto" else f'jacobian="{jacobian}" is of shooting'
 
 
-def _period(model: Model, period_guess: float | None) -> tuple[bool, float]:
-    if model.period is not None:
-        if period_guess is not None:
-            raise ArgumentError(
-                f"period_guess is for autonomous systems; this one is forced with period "
-                f"{model.period:.6g} s."
-            )
-        return False, float(model.period)
-    if period_guess is None:
-        raise ArgumentError("an autonomous system (period None) needs a period_guess.")
-    if not 0 < period_guess < np.inf:
-        raise ArgumentError(f"period_guess must be positive and finite, not {period_guess}.")
-    return True, float(period_guess)
+def _without_rhs(model: Model) -> str:
+    return "" if isinstance(model, HasRates | HasRhs) else "the model has no right-hand side"
 
 
-def _proposal(model: Model) -> FloatArray:
-    if not isinstance(model, HasInitialGuess):
-        raise ArgumentError("this model proposes no initial guess; pass one.")
-    return model.initial_guess()
+def _most_nodes(model: Model, method: SearchMethod) -> int:
+    if method == "collocation":
+        return _MOST_NODES
+    return max(_MOST_NODES_BY_CHOICE, _MOST_UNKNOWNS_BY_CHOICE // len(model.state_names))
 
 
-def _reject_equilibrium(
-    work: Segments,
-    x: FloatArray,
-    period: float,
-    closure: float,
-    iterations: tuple[Iteration, ...],
-) -> None:
-    times = work.start + period * np.arange(SAMPLES_PER_SEGMENT) / SAMPLES_PER_SEGMENT
-    try:
-        path = sample(work.model, x, work.start, times, work.start + period)
-    except StateError:
-        return  # so unstable that it runs away within a period: no equilibrium does
-    if float(np.abs((path - x) / work.scale).max()) > _SMALLEST_AMPLITUDE:
-        return
-    where = np.array2string(x, precision=6, max_line_width=1000)
-    raise EquilibriumError(
-        f"No cycle found: the search ended on an equilibrium, or at period zero, near {where} "
-        f"(period {period:.3g} s) after {len(iterations) - 1} iterations; start further away from "
-        f"the equilibrium, or with another period guess.",
-        x,
-        closure,
-        iterations,
-    )
+def _points(guess: npt.ArrayLike | FloquetResult | None, segments: int) -> npt.ArrayLike | None:
+    """What shooting starts from: the starts of its segments of an orbit given as guess."""
+    if not isinstance(guess, FloquetResult):
+        return guess
+    phases = np.arange(segments) / segments
+    return guess.trajectory(guess.start_time + phases * guess.period).states

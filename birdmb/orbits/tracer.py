@@ -178,7 +178,7 @@ class Tracer:
         return solve(
             equations,
             u,
-            method="newton",
+            damping="line-search",
             tolerance=self._tolerance,
             max_iterations=_CORRECTOR_ITERATIONS,
         )

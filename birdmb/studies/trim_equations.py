@@ -60,7 +60,7 @@ class TrimEquations:
         u, _, _ = solve(
             self,
             np.concatenate([x0 / scale, (point - self._low) / self._width]),
-            method="newton",
+            damping="line-search",
             tolerance=_TOLERANCE,
             max_iterations=_ITERATIONS,
             callback=_give_up_creeping,

@@ -1,0 +1,284 @@
+"""The Fourier collocation equations of a periodic orbit, and how many nodes it needs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from scipy.linalg import block_diag, lapack
+
+from birdmb._typing import FloatArray
+from birdmb.errors import StateError
+from birdmb.orbits.errors import NotSmoothError
+from birdmb.orbits.newton import Damping, Iteration, solve
+from birdmb.orbits.right_hand_side import RightHandSide
+from birdmb.orbits.trigonometric import differentiation_matrix, resampled
+
+_EPS = float(np.finfo(float).eps)
+FIRST_NODES = 17
+_GROWTH = 1.5
+# Harmonics that decay more slowly than this from one number of nodes to the next will not reach
+# the accuracy: 1.5 times the nodes take a smooth orbit's error down by far more.
+_SLOWEST_DECAY = 0.5
+# Round-off of the residual, in units of machine precision times its largest term.
+_NOISE = 100.0
+
+
+class _Latest:
+    """What was evaluated last: a residual and a Jacobian at the same point share the rates."""
+
+    period = math.nan
+    points = rates = np.empty(0)
+    jacobians: FloatArray | None = None
+
+
+@dataclass(frozen=True)
+class CollocationEquations:
+    """D X = T f(t, X) at N equidistant nodes, D the trigonometric differentiation matrix.
+
+    Unknowns: the states at the nodes in units of the scale and, for an autonomous system, the
+    period in units of `period`. Residual: the mismatch of the slopes by phase, in the same units,
+    divided by the root of N so that its norm does not depend on N. The phase of an autonomous orbit
+    is fixed as in shooting: a step is orthogonal to the velocities along the iterate itself, and
+    that row of the residual is always zero (Doedel, Keller & Kernevez 1991).
+    """
+
+    rhs: RightHandSide
+    start: float
+    period: float
+    autonomous: bool
+    nodes: int
+    latest: _Latest = field(default_factory=_Latest, repr=False, compare=False)
+
+    # One Jacobian costs 2 n residuals where it is taken by differences, and an LU anyway.
+    dear_jacobian = True
+
+    def with_nodes(self, nodes: int) -> CollocationEquations:
+        """The same equations on other nodes."""
+        return replace(self, nodes=nodes, latest=_Latest())
+
+    def pack(self, points: FloatArray, period: float) -> FloatArray:
+        """Unknowns of the orbit with scaled states `points` (N, n)."""
+        return (
+            np.append(points.ravel(), period / self.period) if self.autonomous else points.ravel()
+        )
+
+    def unpack(self, u: FloatArray) -> tuple[FloatArray, float]:
+        """Scaled states (N, n) and period of the unknowns."""
+        period = self.period
+        if self.autonomous:
+            u, period = u[:-1], float(u[-1]) * self.period
+        return u.reshape(self.nodes, -1), period
+
+    def times(self, period: float) -> FloatArray:
+        """Times (N,) of the nodes in s."""
+        return self.start + period * np.arange(self.nodes) / self.nodes
+
+    def start_and_period(self, u: FloatArray) -> tuple[FloatArray, float]:
+        """State (n,) at the start, in its own units, and the period."""
+        points, period = self.unpack(u)
+        return points[0] * self.rhs.scale, period
+
+    def closure(self, residual: FloatArray) -> float:
+        """Largest mismatch of slopes, in the units of the states per period."""
+        gaps = residual[:-1] if self.autonomous else residual
+        gaps = gaps.reshape(self.nodes, -1) * self.rhs.scale * np.sqrt(self.nodes)
+        return float(np.abs(gaps).max())
+
+    def rates(self, points: FloatArray, period: float) -> FloatArray:
+        """Rates (N, n) of scaled states per second at the nodes; raises `StateError`."""
+        latest = self.latest
+        if latest.period != period or not np.array_equal(latest.points, points):
+            latest.rates = self.rhs.rates(self.times(period), points)
+            latest.points, latest.period = points.copy(), period
+        return latest.rates
+
+    def residual(self, u: FloatArray) -> FloatArray:
+        """Scaled mismatch of slopes; StateError where the right-hand side fails."""
+        points, period = self.unpack(u)
+        if not period > 0:
+            raise StateError(f"The period {period:.6g} is not positive.")
+        gaps = differentiation_matrix(self.nodes) @ points - period * self.rates(points, period)
+        scaled = gaps.ravel() / np.sqrt(self.nodes)
+        return np.append(scaled, 0.0) if self.autonomous else scaled
+
+    def jacobian(self, u: FloatArray) -> FloatArray:
+        """Derivative of the residual."""
+        points, period = self.unpack(u)
+        self.latest.jacobians = self.rhs.jacobians(self.times(period), points)
+        return self.assemble(u, self.latest.jacobians)
+
+    def assemble(self, u: FloatArray, rate_jacobians: FloatArray) -> FloatArray:
+        """Derivative of the residual from the derivatives (N, n, n) of the rates."""
+        points, period = self.unpack(u)
+        n = points.shape[1]
+        matrix = np.kron(differentiation_matrix(self.nodes), np.eye(n))
+        matrix -= period * block_diag(*rate_jacobians)
+        matrix /= np.sqrt(self.nodes)
+        if not self.autonomous:
+            return np.asarray(matrix)
+        rates = self.rates(points, period)
+        stretch = -self.period * rates.ravel() / np.sqrt(self.nodes)
+        phase = rates.ravel() / (np.linalg.norm(rates) or 1.0)
+        return np.block([[matrix, stretch[:, None]], [phase[None, :], np.zeros((1, 1))]])
+
+    def round_off(self, u: FloatArray) -> float:
+        """Norm that round-off leaves of the residual."""
+        points, period = self.unpack(u)
+        slopes = period * self.rates(points, period)
+        largest = self.nodes * np.abs(points).max() + np.abs(slopes).max()
+        return float(_NOISE * _EPS * largest)
+
+
+@dataclass(frozen=True)
+class Collocated:
+    """A solution of the collocation equations, and what a finer one makes of it.
+
+    Attributes:
+        equations: those solved.
+        u: unknowns.
+        residual: of the equations.
+        finer: the equations on half as many nodes again.
+        finer_u: unknowns there, of this solution corrected by one Newton step.
+        state_error: largest correction, in units of the state scale.
+        iterations: steps of Newton's method on all numbers of nodes.
+    """
+
+    equations: CollocationEquations
+    u: FloatArray
+    residual: FloatArray
+    finer: CollocationEquations
+    finer_u: FloatArray
+    state_error: float
+    iterations: tuple[Iteration, ...]
+
+
+def more_nodes(nodes: int) -> int:
+    """The next odd number of nodes above half as many again."""
+    return int(_GROWTH * nodes) | 1
+
+
+def fewer_nodes(nodes: int) -> int:
+    """An odd number of nodes from which `more_nodes` leads about back to `nodes`."""
+    return int(nodes / _GROWTH) | 1
+
+
+def collocate(
+    equations: CollocationEquations,
+    points: FloatArray,
+    period: float,
+    *,
+    damping: Damping,
+    tolerance: float,
+    accuracy: float,
+    max_iterations: int,
+    most_nodes: int,
+    fixed: bool = False,
+    callback: Callable[[Iteration], None] | None = None,
+) -> Collocated:
+    """Solve the equations on as many nodes as the orbit needs, from scaled `points` (N, n).
+
+    The number of nodes grows by half until the correction that a Newton step on half as many again
+    makes is below `accuracy` (state scales). `fixed`: the number given is kept, whatever it leaves.
+
+    Raises:
+        StateError: the right-hand side fails at the guess.
+        ConvergenceError: no solution on some number of nodes.
+        NotSmoothError: the error does not fall off with the nodes, or not with `most_nodes`.
+    """
+    history: list[Iteration] = []
+    errors: list[float] = []
+    u = equations.pack(points, period)
+    first: FloatArray | None = None
+
+    def record(iteration: Iteration) -> None:
+        history.append(replace(iteration, number=len(history)))
+        if callback is not None:
+            callback(history[-1])
+
+    while True:
+        u, residual, _ = solve(
+            equations,
+            u,
+            damping=damping,
+            tolerance=max(tolerance, equations.round_off(u)),
+            max_iterations=max_iterations,
+            callback=record,
+            first_jacobian=None if first is None else equations.assemble(u, first),
+        )
+        points, period = equations.unpack(u)
+        jacobians = equations.latest.jacobians
+        if jacobians is None:
+            jacobians = first
+        if jacobians is None:
+            jacobians = equations.rhs.jacobians(equations.times(period), points)
+        finer, finer_u, error = _correction(equations, u, jacobians)
+        if fixed or error <= accuracy:
+            return Collocated(equations, u, residual, finer, finer_u, error, tuple(history))
+        errors.append(error)
+        _refuse_rough(equations, u, errors, accuracy, most_nodes, history)
+        first = resampled(jacobians, finer.nodes)
+        equations, u = finer, finer_u
+
+
+def _correction(
+    equations: CollocationEquations, u: FloatArray, jacobians: FloatArray
+) -> tuple[CollocationEquations, FloatArray, float]:
+    """The equations on more nodes, unknowns after a Newton step there, and the step's size.
+
+    The derivatives on the finer nodes are those interpolated: they decide how good the step is, not
+    where it leads.
+    """
+    points, period = equations.unpack(u)
+    finer = equations.with_nodes(more_nodes(equations.nodes))
+    start = finer.pack(resampled(points, finer.nodes), period)
+    matrix = finer.assemble(start, resampled(jacobians, finer.nodes))
+    residual = finer.residual(start)
+    # Least squares where the orbit is one of a family: its Jacobian is singular.
+    lu, pivots, singular = lapack.dgetrf(matrix)
+    step = -lapack.dgetrs(lu, pivots, residual)[0]
+    if singular or not np.isfinite(step).all():
+        step = -np.linalg.lstsq(matrix, residual)[0]
+    return finer, start + step, float(np.abs(step).max())
+
+
+def _refuse_rough(
+    equations: CollocationEquations,
+    u: FloatArray,
+    errors: list[float],
+    accuracy: float,
+    most_nodes: int,
+    history: list[Iteration],
+) -> None:
+    nodes = equations.nodes
+    following = more_nodes(nodes)
+    slow = len(errors) > 2 and errors[-1] > _SLOWEST_DECAY * errors[-3]
+    hopeless = len(errors) > 2 and _needed(nodes, errors, accuracy) > most_nodes
+    if following <= most_nodes and not slow and not hopeless:
+        return
+    x, _ = equations.start_and_period(u)
+    why = (
+        f"{most_nodes} nodes, the most allowed, do not reach it"
+        if following > most_nodes
+        else "it does not fall off with the number of nodes as that of a smooth orbit does"
+    )
+    raise NotSmoothError(
+        f"The orbit is too rough for collocation: with {nodes} nodes its error is still "
+        f"{errors[-1]:.1e} of the state scale (goal {accuracy:.1g}), and {why}. "
+        f'Take method="shooting", or allow more nodes.',
+        x,
+        errors[-1],
+        history,
+    )
+
+
+def _needed(nodes: int, errors: list[float], accuracy: float) -> float:
+    """Nodes that the accuracy would take if the errors fell off as they did over two rungs.
+
+    Taken as algebraic: a spectral decay only gets faster.
+    """
+    last, before = errors[-1], errors[-3]
+    order = np.log(before / last) / np.log(_GROWTH**2)
+    return float(nodes * (last / accuracy) ** (1 / max(order, 1e-3)))

@@ -1,0 +1,208 @@
+"""Finding a periodic orbit by Fourier collocation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import cast
+
+import numpy as np
+import numpy.typing as npt
+from scipy.interpolate import CubicSpline
+
+from birdmb._typing import FloatArray
+from birdmb.errors import OrbitError, StateError
+from birdmb.orbits.collocated import linearise_collocated
+from birdmb.orbits.collocation import (
+    FIRST_NODES,
+    Collocated,
+    CollocationEquations,
+    collocate,
+    fewer_nodes,
+    more_nodes,
+)
+from birdmb.orbits.cycle import LimitCycle
+from birdmb.orbits.errors import ArgumentError, ConvergenceError, NotSmoothError
+from birdmb.orbits.newton import Damping, Iteration
+from birdmb.orbits.periodicity import require_period
+from birdmb.orbits.problem import HasGuessedPath, HasLimitCycleType, Model
+from birdmb.orbits.result import FloquetResult
+from birdmb.orbits.right_hand_side import RightHandSide
+from birdmb.orbits.scales import declared_scale, outgrown, sizes_along
+from birdmb.orbits.segments import sample
+from birdmb.orbits.shooting_search import (
+    MOST_RESCALINGS,
+    SMALLEST_AMPLITUDE,
+    at_equilibrium,
+    period_or_guess,
+    proposal,
+)
+from birdmb.orbits.trigonometric import resampled, without_drift
+
+# Fewer instants do not show a path: it is then flown from them.
+_FEWEST_INSTANTS = 9
+
+
+def search_by_collocation(
+    model: Model,
+    guess: npt.ArrayLike | FloquetResult | None,
+    *,
+    period_guess: float | None,
+    start_time: float,
+    damping: Damping,
+    tolerance: float,
+    accuracy: float,
+    max_iterations: int,
+    nodes: int | None,
+    most_nodes: int,
+    callback: Callable[[Iteration], None] | None,
+) -> LimitCycle:
+    """Find a periodic orbit; arguments and errors of `find_limit_cycle`.
+
+    `most_nodes` is the number of nodes beyond which a `NotSmoothError` says that it is too rough.
+    """
+    if nodes is not None and not (nodes % 2 and 3 <= nodes <= most_nodes):
+        raise ArgumentError(f"nodes must be odd and from 3 to {most_nodes}, not {nodes}.")
+    if not np.isfinite(start_time):
+        raise ArgumentError(f"start_time must be finite, not {start_time}.")
+    autonomous, period = period_or_guess(model, period_guess)
+    first = nodes or FIRST_NODES
+    if isinstance(guess, LimitCycle) and guess.nodes is not None and nodes is None:
+        first = max(FIRST_NODES, fewer_nodes(guess.nodes))
+    path = guessed_path(model, guess, start_time, period, first)
+    declared = declared_scale(model)
+    scale = sizes_along(model, path, start_time, period) if declared is None else declared
+    require_period(model, path[0], scale, start_time, period)
+    gap = _derivative_gap(RightHandSide(model, scale), path / scale, start_time, period)
+
+    def search(path: FloatArray, period: float, scale: FloatArray) -> Collocated:
+        rhs = RightHandSide(model, scale, by_differences=gap > 0)
+        return collocate(
+            CollocationEquations(rhs, start_time, period, autonomous, len(path)),
+            path / scale,
+            period,
+            damping=damping,
+            tolerance=tolerance,
+            accuracy=accuracy,
+            max_iterations=max_iterations,
+            most_nodes=most_nodes,
+            fixed=nodes is not None,
+            callback=callback,
+        )
+
+    found = _on_enough_nodes(search, path, period, scale, most_nodes if nodes is None else first)
+    iterations = found.iterations
+    for _ in range(MOST_RESCALINGS if declared is None else 0):
+        points, period = found.equations.unpack(found.u)
+        path = points * scale
+        fitting = outgrown(scale, path)
+        if fitting is None:
+            break
+        scale = fitting
+        found = search(path, period, scale)
+        iterations += found.iterations
+    _refuse_equilibrium(found, iterations)
+    fields = linearise_collocated(found, gap)
+    kind = model.limit_cycle_type if isinstance(model, HasLimitCycleType) else LimitCycle
+    return cast(
+        "LimitCycle",
+        kind(**fields, iterations=iterations, method="collocation", state_error=found.state_error),
+    )
+
+
+def _derivative_gap(
+    rhs: RightHandSide, points: FloatArray, start_time: float, period: float
+) -> float:
+    """By how much a derivative that the model gives contradicts differences; 0 if it does not."""
+    if not rhs.has_derivative:
+        return 0.0
+    times = start_time + period * np.arange(len(points)) / len(points)
+    return rhs.derivative_gap(times, points, rhs.jacobians(times, points))
+
+
+def guessed_path(
+    model: Model,
+    guess: npt.ArrayLike | FloquetResult | None,
+    start_time: float,
+    period: float,
+    nodes: int,
+) -> FloatArray:
+    """States (nodes, n) along a closed path to start from.
+
+    Raises:
+        ArgumentError: the guess has the wrong shape or is not finite.
+        StateError: the flow from the guess fails.
+    """
+    phases = np.arange(nodes) / nodes
+    if isinstance(guess, FloquetResult):
+        if guess.state_names != tuple(model.state_names):
+            raise ArgumentError(
+                f"the orbit given as guess has the states {', '.join(guess.state_names)}; this "
+                f"model has {', '.join(model.state_names)}."
+            )
+        return guess.trajectory(guess.start_time + phases * guess.period).states
+    if guess is None:
+        if isinstance(model, HasGuessedPath):
+            return np.asarray(model.guess_along(start_time + phases * period), float)
+        guess = proposal(model)
+    states, n = np.array(guess, float), len(model.state_names)
+    if states.ndim not in {1, 2} or states.shape[-1] != n or states.size == 0:
+        raise ArgumentError(
+            f"the guess has shape {states.shape}; the states {', '.join(model.state_names)} need "
+            f"({n},), or (K, {n}) for K even instants of the period."
+        )
+    if not np.isfinite(states).all():
+        raise ArgumentError("the guess holds values that are not finite.")
+    if states.ndim == 2 and len(states) >= _FEWEST_INSTANTS:
+        if len(states) % 2:
+            return resampled(states, nodes)
+        closed = np.concatenate([states, states[:1]])
+        grid = np.arange(len(closed)) / len(states)
+        return np.asarray(CubicSpline(grid, closed, bc_type="periodic")(phases))
+    return _flown(model, np.atleast_2d(states), start_time, period, phases)
+
+
+def _flown(
+    model: Model, starts: FloatArray, start_time: float, period: float, phases: FloatArray
+) -> FloatArray:
+    """Path (nodes, n) by the flow from `starts` (M, n) of M segments, made to close."""
+    count = len(starts)
+    grid = start_time + period * np.arange(count + 1) / count
+    times = start_time + period * np.append(phases, 1.0)
+    pieces = []
+    for k, x in enumerate(starts):
+        inside = (times >= grid[k]) & ((times < grid[k + 1]) | (k == count - 1))
+        at = np.clip(times[inside], grid[k], grid[k + 1])
+        pieces.append(sample(model, x, grid[k], at, grid[k + 1]))
+    return without_drift(np.concatenate(pieces))
+
+
+def _on_enough_nodes(
+    search: Callable[[FloatArray, float, FloatArray], Collocated],
+    path: FloatArray,
+    period: float,
+    scale: FloatArray,
+    most_nodes: int,
+) -> Collocated:
+    """The solution from a path; on more nodes at first where there is none on few."""
+    nodes = len(path)
+    larger = more_nodes(more_nodes(nodes))
+    try:
+        return search(path, period, scale)
+    except NotSmoothError:
+        raise
+    except (ConvergenceError, StateError) as first_error:
+        if larger > most_nodes:
+            raise
+        try:
+            return search(resampled(path, larger), period, scale)
+        except (OrbitError, StateError):
+            raise first_error from None
+
+
+def _refuse_equilibrium(found: Collocated, iterations: tuple[Iteration, ...]) -> None:
+    if not found.equations.autonomous:
+        return
+    points, period = found.equations.unpack(found.u)
+    if np.abs(points - points[0]).max() <= SMALLEST_AMPLITUDE:
+        x = points[0] * found.equations.rhs.scale
+        raise at_equilibrium(x, period, found.equations.closure(found.residual), iterations)

@@ -1,0 +1,135 @@
+"""The right-hand side of a model and its derivative at many instants, in units of the scale."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from birdmb._typing import FloatArray
+from birdmb.errors import StateError
+from birdmb.orbits.problem import HasJacobian, HasRateJacobians, HasRates, HasRhs, Model, Scalable
+
+_EPS = float(np.finfo(float).eps)
+# Where truncation and round-off of a central difference balance, in units of the state scale.
+_STEP = _EPS ** (1 / 3)
+# A derivative that a model gives may differ from differences by this part of its size, and more
+# only if the right-hand side bends or jumps within a step, or if it is wrong.
+_AGREES = 1e-4
+_MARGIN = 3.0
+
+
+@dataclass(frozen=True)
+class RightHandSide:
+    """Scaled rates f(t, y) of a model, with y = x / scale, at K instants in one call.
+
+    Attributes:
+        model: the model; it is taken on the scale, if it can be.
+        scale: typical sizes (n,) of its states.
+        by_differences: whether derivatives come from differences though the model has its own.
+    """
+
+    model: Model
+    scale: FloatArray
+    by_differences: bool = False
+
+    def __post_init__(self) -> None:
+        """Tell the model the scale."""
+        if isinstance(self.model, Scalable):
+            object.__setattr__(self, "model", self.model.scaled_to(self.scale))
+
+    @property
+    def has_derivative(self) -> bool:
+        """Whether derivatives are the model's own."""
+        able = isinstance(self.model, HasRateJacobians | HasJacobian)
+        return able and not self.by_differences
+
+    def rates(self, times: FloatArray, states: FloatArray) -> FloatArray:
+        """Rates (K, n) per second at `times` (K,) in scaled `states` (K, n).
+
+        Raises:
+            StateError: the right-hand side fails or is not finite.
+        """
+        model = self.model
+        with np.errstate(all="ignore"):
+            x = states * self.scale
+            if isinstance(model, HasRates):
+                found = np.asarray(model.rates(times, x), float)
+            elif isinstance(model, HasRhs):
+                found = np.array([model.rhs(*at) for at in zip(times.tolist(), x, strict=True)])
+            else:
+                raise TypeError("the model has no right-hand side.")
+            found = found / self.scale
+        if not np.isfinite(found).all():
+            k = int(np.argmin(np.isfinite(found).all(axis=1)))
+            raise StateError(f"The right-hand side at t = {times[k]:.6g} is not finite.")
+        return found
+
+    def jacobians(self, times: FloatArray, states: FloatArray) -> FloatArray:
+        """Derivatives (K, n, n) of the rates by the scaled states; raises `StateError`."""
+        model, units = self.model, np.divide.outer(self.scale, self.scale)
+        if not self.has_derivative:
+            return self._differences(times, states)
+        x = states * self.scale
+        with np.errstate(all="ignore"):
+            if isinstance(model, HasRateJacobians):
+                found = np.asarray(model.rate_jacobians(times, x), float)
+            else:
+                assert isinstance(model, HasJacobian)
+                each = zip(times.tolist(), x, strict=True)
+                found = np.array([model.jacobian(*at) for at in each], float)
+        if not np.isfinite(found).all():
+            raise StateError("The derivative of the right-hand side is not finite.")
+        return np.asarray(found / units)
+
+    def _differences(self, times: FloatArray, states: FloatArray) -> FloatArray:
+        count, n = states.shape
+        shifts = _STEP * np.concatenate([np.eye(n), -np.eye(n)])
+        rows = (states[:, None, :] + shifts).reshape(-1, n)
+        ends = self.rates(np.repeat(times, 2 * n), rows).reshape(count, 2 * n, n)
+        taken = np.einsum("kjj->kj", rows.reshape(count, 2 * n, n)[:, :n] - states[:, None, :])
+        taken = taken + np.einsum(
+            "kjj->kj", states[:, None, :] - rows.reshape(count, 2 * n, n)[:, n:]
+        )
+        return np.swapaxes((ends[:, :n] - ends[:, n:]) / taken[:, :, None], 1, 2)
+
+    def jacobian_errors(
+        self, times: FloatArray, states: FloatArray, jacobians: FloatArray
+    ) -> FloatArray:
+        """Errors (K, n, n) of `jacobians` (K, n, n), as far as one difference a row shows them.
+
+        Along one direction in general position, over twice the step: what the derivative and the
+        difference are apart, of each rate, is laid to each of its derivatives.
+        """
+        direction = _direction(states)
+        # A step grows fourfold in truncation when it doubles, so that what differences of the
+        # single step are off by is a third of what is seen.
+        seen = self._along(times, states, direction, 2 * _STEP)
+        gap = np.abs(seen - np.einsum("kij,kj->ki", jacobians, direction))
+        noise = _EPS / _STEP * np.abs(self.rates(times, states)).max(axis=1, keepdims=True)
+        own = 0.0 if self.has_derivative else gap
+        return np.broadcast_to((own + noise)[:, :, None], jacobians.shape)
+
+    def derivative_gap(self, times: FloatArray, states: FloatArray, jacobians: FloatArray) -> float:
+        """By how much the model's own derivative contradicts differences; 0 where they agree."""
+        direction = _direction(states)
+        claimed = np.einsum("kij,kj->ki", jacobians, direction)
+        near, far = (
+            self._along(times, states, direction, step) for step in (10 * _STEP, 20 * _STEP)
+        )
+        size = max(1.0, float(np.abs(claimed).max()))
+        gap = np.abs(near - claimed)
+        # Where the right-hand side bends within the step, differences decide nothing.
+        own = _MARGIN * np.abs(near - far) + _AGREES * size
+        return float(gap.max()) if (gap > own).any() else 0.0
+
+    def _along(
+        self, times: FloatArray, states: FloatArray, direction: FloatArray, step: float
+    ) -> FloatArray:
+        ahead = self.rates(times, states + step * direction)
+        return (ahead - self.rates(times, states - step * direction)) / (2 * step)
+
+
+def _direction(states: FloatArray) -> FloatArray:
+    direction = np.random.default_rng(0).standard_normal(states.shape)
+    return np.asarray(direction / np.linalg.norm(direction, axis=1)[:, None])

@@ -1,0 +1,71 @@
+"""Flow Jacobians between the nodes of a collocated orbit, from the derivative along it.
+
+The variational equation dPhi/dt = A(t) Phi is integrated by Radau IIA from node to node, A being
+the trigonometric interpolant of its values at the nodes. The method is L-stable: a mode that decays
+within a fraction of an interval stays small (Hairer & Wanner, Solving Ordinary Differential
+Equations II, section IV.5).
+"""
+
+from __future__ import annotations
+
+import functools
+
+import numpy as np
+from scipy.special import eval_legendre, roots_jacobi
+
+from birdmb._typing import FloatArray
+from birdmb.orbits.trigonometric import interpolated
+
+_STAGES, _FEWER_STAGES = 9, 7
+# Up to here nine stages are exact to a part in 1e12; beyond, an interval is divided.
+_LARGEST_STEP = 3.0
+_MOST_PARTS = 8
+
+
+def flow_jacobians(rate_jacobians: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Flow Jacobians from node to node, (N, n, n), and bounds (N, n, n) of their errors.
+
+    `rate_jacobians` (N, n, n) are those of the rates at the nodes, by phase (times the period). The
+    bound is what fewer stages make of them.
+    """
+    nodes = len(rate_jacobians)
+    step = float(np.abs(rate_jacobians).sum(axis=2).max()) / nodes
+    parts = int(np.clip(np.ceil(step / _LARGEST_STEP), 1, _MOST_PARTS))
+    factors = _integrated(rate_jacobians, _STAGES, parts)
+    return factors, np.abs(factors - _integrated(rate_jacobians, _FEWER_STAGES, parts))
+
+
+def _integrated(rate_jacobians: FloatArray, stages: int, parts: int) -> FloatArray:
+    nodes, n, _ = rate_jacobians.shape
+    count = nodes * parts
+    abscissae, weights = _radau(stages)
+    phases = (np.arange(count)[:, None] + abscissae).ravel() / count
+    along = interpolated(rate_jacobians, phases).reshape(count, stages, n, n) / count
+    # Slopes K_i at the stages: K_i = A_i (I + sum_j w_ij K_j).
+    coupled = np.einsum("kiab,ij->kiajb", along, weights).reshape(count, stages * n, stages * n)
+    slopes = np.linalg.solve(np.eye(stages * n) - coupled, along.reshape(count, stages * n, n))
+    ends = np.einsum("i,kiab->kab", weights[-1], slopes.reshape(count, stages, n, n))
+    factors = (np.eye(n) + ends).reshape(nodes, parts, n, n)
+    total = factors[:, 0]
+    for part in range(1, parts):
+        total = factors[:, part] @ total
+    return total
+
+
+@functools.cache
+def _radau(stages: int) -> tuple[FloatArray, FloatArray]:
+    """Abscissae (s,) in (0, 1] and coefficients (s, s) of Radau IIA; the last row weighs the end.
+
+    The coefficients integrate the polynomials through the stages; in Legendre's basis that is well
+    conditioned.
+    """
+    x = np.append(roots_jacobi(stages - 1, 1.0, 0.0)[0], 1.0)
+    degrees = np.arange(stages)
+    values = eval_legendre(degrees, x[:, None])
+    integrals = np.empty((stages, stages))
+    integrals[:, 0] = x + 1.0
+    for k in degrees[1:]:
+        difference = eval_legendre(k + 1, x) - eval_legendre(k - 1, x)
+        integrals[:, k] = difference / (2 * k + 1)
+    coefficients = np.linalg.solve(values.T, integrals.T).T / 2.0
+    return (x + 1.0) / 2.0, np.asarray(coefficients)
