@@ -10,8 +10,11 @@ from birdmb.cli.flight_commands import commands as flight_commands
 from birdmb.cli.options import (
     MOST_STEPS,
     Assignments,
+    Damping,
+    DampingChoice,
     Json,
     Method,
+    MethodChoice,
     ModelChoice,
     ModelName,
     Segments,
@@ -97,18 +100,13 @@ def cycle(
         ),
     ] = None,
     json: Json = False,
-    segments: Segments = 1,
+    segments: Segments = None,
     tolerance: Tolerance = 1e-9,
     max_iterations: Annotated[
         int, typer.Option(min=1, metavar="N", help="Iterations allowed.")
     ] = 50,
-    method: Annotated[
-        Method,
-        typer.Option(
-            metavar="METHOD",
-            help="newton, or levenberg-marquardt: takes longer, starts from further away.",
-        ),
-    ] = Method.NEWTON,
+    method: MethodChoice = Method.AUTO,
+    damping: DampingChoice = Damping.LINE_SEARCH,
     steps_per_beat: StepsPerBeat = None,
 ) -> None:
     """Find the limit cycle of a bird, its Floquet multipliers, speed and power.
@@ -131,6 +129,7 @@ def cycle(
                 tolerance=tolerance,
                 max_iterations=max_iterations,
                 method=method.value,
+                damping=damping.value,
                 steps_per_beat=steps_per_beat,
             ),
             out=out,
@@ -214,7 +213,7 @@ def branch(
         typer.Option(metavar="DIR", help="Write a picture (branch.png) into this directory."),
     ] = None,
     json: Json = False,
-    segments: Segments = 1,
+    segments: Segments = None,
     tolerance: Tolerance = 1e-9,
     longest_step: Annotated[
         float,

@@ -58,7 +58,7 @@ class Following:
     stop: float
     model: str
     max_points: int
-    segments: int
+    segments: int | None
     tolerance: float
     steps_per_beat: int | None
     longest_step: float
@@ -161,7 +161,7 @@ def _followed(
             (wanted.start, wanted.stop),
             _model(wanted.model),
             steps_per_beat=wanted.steps_per_beat,
-            segments=wanted.segments,
+            segments=wanted.segments or 1,
             steps=Steps(longest=wanted.longest_step),
             max_points=wanted.max_points,
             tolerance=wanted.tolerance,

@@ -29,7 +29,8 @@ if TYPE_CHECKING:
     from birdmb.models import FlightCycle
     from birdmb.models.multibody import MultibodyModel
     from birdmb.models.rigid import RigidModel
-    from birdmb.orbits.newton import SolverMethod
+    from birdmb.orbits.newton import Damping
+    from birdmb.orbits.search import SearchMethod
     from birdmb.topology import Bird
 
 
@@ -38,10 +39,11 @@ class Search:
     """What the options say about model and search; see `find_limit_cycle`."""
 
     model: str
-    segments: int
+    segments: int | None
     tolerance: float
     max_iterations: int
-    method: SolverMethod
+    method: SearchMethod
+    damping: Damping
     steps_per_beat: int | None
 
 
@@ -100,7 +102,11 @@ def _found(bird: Bird, search: Search, progress: Progress) -> FlightCycle:
             segments=search.segments,
             tolerance=search.tolerance,
             max_iterations=search.max_iterations,
-            method=search.method,
+            # Steps are of the time integration: who gives them wants it.
+            method="shooting"
+            if search.steps_per_beat is not None and search.method == "auto"
+            else search.method,
+            damping=search.damping,
             callback=progress.iteration,
         )
     except ConvergenceError as error:

@@ -20,9 +20,17 @@ class ModelName(StrEnum):
 
 
 class Method(StrEnum):
-    """How the orbit is searched for."""
+    """How the limit cycle is searched for."""
 
-    NEWTON = "newton"
+    AUTO = "auto"
+    COLLOCATION = "collocation"
+    SHOOTING = "shooting"
+
+
+class Damping(StrEnum):
+    """How steps of Newton's method are shortened."""
+
+    LINE_SEARCH = "line-search"
     LEVENBERG_MARQUARDT = "levenberg-marquardt"
 
 
@@ -57,12 +65,29 @@ ModelChoice = Annotated[
     ModelName, typer.Option(metavar="MODEL", help="multibody or rigid, as for `birdmb cycle`.")
 ]
 Segments = Annotated[
-    int,
+    int | None,
     typer.Option(
         min=1,
         max=128,  # as many as a beat has integration steps
         metavar="N",
-        help="Shooting segments; more tame strongly unstable flights.",
+        help="Shooting segments; more tame strongly unstable flights. Given, shooting is taken.",
+        show_default="1, if shooting is taken",
+    ),
+]
+MethodChoice = Annotated[
+    Method,
+    typer.Option(
+        metavar="METHOD",
+        help="collocation: fast, for smooth motions; shooting: by the time integration; auto: "
+        "collocation where it can, else shooting.",
+    ),
+]
+DampingChoice = Annotated[
+    Damping,
+    typer.Option(
+        metavar="HOW",
+        help="How steps of Newton's method are shortened: line-search, or levenberg-marquardt: "
+        "takes longer, starts from further away.",
     ),
 ]
 Tolerance = Annotated[

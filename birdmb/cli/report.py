@@ -113,24 +113,38 @@ def _flight(cycle: FlightCycle, validity: Validity) -> Table:
             "largest effective one, but for the tip",
         ),
         *_tail_angle(validity),
-        ("integration", model.integration_method, "", _steps(model)),
         ("energy imbalance", f"{cycle.energy_imbalance:.1e}", "", "a check: 0 if exact"),
-        (
-            "integration error",
-            f"{cycle.integration_error:.1e}",
-            "",
-            "of a beat, against half steps",
-        ),
+        *_method(cycle, model),
+    )
+    for row in rows:
+        table.add_row(*row)
+    return table
+
+
+def _method(cycle: FlightCycle, model: WingModel) -> list[tuple[str, str, str, str]]:
+    """How the cycle was found, and what is known of its errors."""
+    error = f"{cycle.integration_error:.1e}"
+    if cycle.nodes is not None:
+        return [
+            ("method", "collocation", "", f"{cycle.nodes} nodes"),
+            ("error of the states", error, "", "in typical sizes, against more nodes"),
+            ("flown closure", f"{cycle.flown_closure:.1e}", "", f"a check: {_flown(model)}"),
+        ]
+    return [
+        ("method", "shooting", "", cycle.method_reason),
+        ("integration", model.integration_method, "", _steps(model)),
+        ("integration error", error, "", "of a beat, against half steps"),
         (
             "  of multipliers",
             f"{cycle.multiplier_integration_errors.max():.1e}",
             "",
             "counted in their errors above",
         ),
-    )
-    for row in rows:
-        table.add_row(*row)
-    return table
+    ]
+
+
+def _flown(model: WingModel) -> str:
+    return f"{model.integration_method} integration, {_steps(model)}"
 
 
 def _steps(model: WingModel) -> str:

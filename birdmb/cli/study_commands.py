@@ -8,6 +8,10 @@ import typer
 from birdmb.cli.options import (
     Assignments,
     ClimbRate,
+    Damping,
+    DampingChoice,
+    Method,
+    MethodChoice,
     ModelChoice,
     ModelName,
     Segments,
@@ -62,7 +66,9 @@ def sweep(
     workers: Workers = None,
     model: ModelChoice = ModelName.MULTIBODY,
     assignments: Assignments = None,
-    segments: Segments = 1,
+    method: MethodChoice = Method.AUTO,
+    damping: DampingChoice = Damping.LINE_SEARCH,
+    segments: Segments = None,
     tolerance: Tolerance = 1e-9,
     max_iterations: Annotated[
         int, typer.Option(min=1, metavar="N", help="Iterations allowed at a point.")
@@ -94,6 +100,11 @@ def sweep(
             steps_per_beat=steps_per_beat,
             trim=trimming,
             search={
+                # Steps are of the time integration: who gives them wants it.
+                "method": "shooting"
+                if steps_per_beat is not None and method == Method.AUTO
+                else method.value,
+                "damping": damping.value,
                 "segments": segments,
                 "tolerance": tolerance,
                 "max_iterations": max_iterations,

@@ -14,10 +14,13 @@ from birdmb.aerodynamics.prescribed import driven
 from birdmb.models.energy import DISSIPATORS, Work, dissipation, work_by_sign
 from birdmb.models.loads import Loads
 from birdmb.models.stepped_cycle import SteppedCycle
+from birdmb.models.wing_model import STEPS_PER_BEAT
 
 # Of flights that are well resolved both are below 1e-4.
 _LARGEST_IMBALANCE = 0.01
 _LARGEST_INTEGRATION_ERROR = 0.01
+# Loads are of higher degree in the states than one.
+_INSTANTS_PER_NODE = 2
 
 
 @dataclass(frozen=True)
@@ -105,7 +108,7 @@ class FlightCycle(SteppedCycle):
 
     @cached_property
     def beat(self) -> Beat:
-        """The beat, at the steps of the model's integration."""
+        """The beat, at the steps of the model's integration or finer than a collocated one."""
         model = self._bird_model
         times, states = self._states_of_beat
         at = list(zip(times, states, strict=True))
@@ -120,8 +123,11 @@ class FlightCycle(SteppedCycle):
 
     @cached_property
     def _states_of_beat(self) -> tuple[FloatArray, FloatArray]:
-        """Times (K,) and states (K, n) of a beat, at the steps of the model's integration."""
-        steps = self._bird_model.steps_per_beat
+        """Times (K,) and states (K, n) of the beat."""
+        if self.nodes is None:
+            steps = self._bird_model.steps_per_beat
+        else:
+            steps = max(STEPS_PER_BEAT, _INSTANTS_PER_NODE * self.nodes)
         times = self.start_time + np.linspace(0.0, self.period, steps + 1)
         return times, self.trajectory(times).states
 

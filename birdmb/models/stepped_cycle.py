@@ -1,5 +1,6 @@
-"""A limit cycle of a model with fixed steps: what the steps make of its multipliers."""
+"""A limit cycle of a model that is flown with fixed steps, and what these make of it."""
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import cast
@@ -24,11 +25,16 @@ _NEWTON_STEPS = 6
 # Left of a closure error: by a Newton step that converges, and by enough of them.
 _CONTRACTION, _CONVERGED = 0.7, 0.01
 _STEP = 1e-5
+# The default numbers of steps can be divided by it.
+_PARTS_FLOWN = 6
 
 
 @dataclass(frozen=True)
 class SteppedCycle(LimitCycle):
-    """Limit cycle of a bird, whose verdict counts the error of the integration."""
+    """Limit cycle of a bird, whose verdict counts the error of the integration.
+
+    A collocated one is not integrated: it has no such error, and flying it is a check.
+    """
 
     @property
     def _bird_model(self) -> WingModel:
@@ -41,7 +47,12 @@ class SteppedCycle(LimitCycle):
 
     @cached_property
     def integration_error(self) -> float:
-        """Error of the flow over a beat, in units of the state scale: against twice the steps."""
+        """Error of the states by integration, in units of the state scale.
+
+        Of the flow over a beat, against twice the steps; of a collocated cycle, its `state_error`.
+        """
+        if self.method == "collocation":
+            return self.state_error
         end = self.start_time + self.period
         coarse, fine = (
             model.flow(self.x0, self.start_time, end)
@@ -50,14 +61,37 @@ class SteppedCycle(LimitCycle):
         return float(np.abs((coarse - fine) / self.state_scale).max())
 
     @cached_property
+    def flown_closure(self) -> float:
+        """Largest closure error in units of the state scale, as the model's flow integrates.
+
+        Of a collocated cycle, flown for a beat in as many parts as share the steps of the
+        integration; infinite where the flow fails. It holds the integration's error, not that of
+        the cycle alone. Of a shot one, the residual of the search.
+        """
+        if self.method == "shooting":
+            return self.residual / float(self.state_scale.max())
+        times = self.start_time + self.period * np.arange(_PARTS_FLOWN + 1) / _PARTS_FLOWN
+        states = self.trajectory(times).states
+        try:
+            ends = [
+                self._bird_model.flow(*each)
+                for each in zip(states[:-1], times[:-1], times[1:], strict=True)
+            ]
+        except StateError:
+            return math.inf
+        return float(np.abs((np.array(ends) - states[1:]) / self.state_scale).max())
+
+    @cached_property
     def multiplier_integration_errors(self) -> FloatArray:
         """Errors (n,) of the multipliers by the integration's steps, alike for all of them.
 
         Twice the largest difference from the multipliers that twice the steps give, of the orbit
         that these have nearby; infinite where they have none. Where forces have kinks, as those of
         springs with two sides, four times the largest difference that several numbers of steps
-        make.
+        make. None of a collocated cycle.
         """
+        if self.method == "collocation":
+            return np.zeros(len(self.multipliers))
         model, steps = self._bird_model, self._bird_model.steps_per_beat
         others, factor = [self._finer_model], _ERROR_PER_DIFFERENCE
         if model.has_kinks:

@@ -147,11 +147,12 @@ def find_limit_cycle(
                 if error.residual < _NEAR:
                     start = error.best_x
                     period_guess = error.history[-1].period if period_guess else None
+    count = 1 if segments is None else segments
     return search_by_shooting(
         model,
-        _points(start, segments or 1),
+        _points(start, count),
         period_guess=period_guess,
-        segments=segments or 1,
+        segments=count,
         start_time=start_time,
         damping=damping,
         tolerance=tolerance,

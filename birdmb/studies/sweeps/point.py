@@ -152,7 +152,7 @@ def _found(task: Task) -> tuple[FlightCycle, str]:
         with suppress(OrbitError, StateError):
             x0 = list(guess.x0.values())
             # Of several segments only the product is kept.
-            known = [guess.monodromy] if task.search.segments == 1 else None
+            known = [guess.monodromy] if task.search.segments in {None, 1} else None
             cycle = find_limit_cycle(model, x0, jacobian_guess=known, **search)
             return cast("FlightCycle", cycle), guess.place
     return cast("FlightCycle", find_limit_cycle(model, **search)), COLD

@@ -12,7 +12,8 @@ from os import PathLike
 from typing import Any
 
 from birdmb.models import MultibodyModel
-from birdmb.orbits.newton import SolverMethod
+from birdmb.orbits.newton import Damping
+from birdmb.orbits.search import SearchMethod
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.relevance import check_relevant
 from birdmb.studies.sweeps.checks import check_processes, check_trimming
@@ -55,8 +56,9 @@ def sweep(
     trim: Trimming | None = None,
     tolerance: float = 1e-9,
     max_iterations: int = 50,
-    segments: int = 1,
-    method: SolverMethod = "newton",
+    segments: int | None = None,
+    method: SearchMethod = "auto",
+    damping: Damping = "line-search",
     on_point: Callable[[Finished], None] | None = None,
 ) -> Study:
     """Find the limit cycles at all combinations of some parameters' values, in parallel.
@@ -81,7 +83,8 @@ def sweep(
             them.
         trim: trims the flight of every point, as to level flight, by parameters that are not
             varied; without it, flights climb and sink as they do.
-        tolerance, max_iterations, segments, method: of each search, as for `find_limit_cycle`.
+        tolerance, max_iterations, segments, method, damping: of each search, as for
+            `find_limit_cycle`.
         on_point: called after every point that has been stored, and once before the first of them.
 
     Raises:
@@ -92,7 +95,7 @@ def sweep(
             that is varied or trimmed has no effect on the model.
     """
     grid = Grid.of(bird, vary)
-    search = Search(tolerance, max_iterations, segments, method)
+    search = Search(tolerance, max_iterations, segments, method, damping)
     if trim is not None:
         check_trimming(bird, grid, trim)
     check_relevant(bird, {**grid.parameters, **(trim.parameters if trim else {})}, model)

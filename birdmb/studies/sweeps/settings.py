@@ -10,7 +10,8 @@ from importlib.metadata import version
 from typing import Any, get_args
 
 from birdmb.orbits import ArgumentError
-from birdmb.orbits.newton import SolverMethod
+from birdmb.orbits.newton import Damping
+from birdmb.orbits.search import SearchMethod
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.sweeps.errors import SweepError
 from birdmb.topology import Bird
@@ -24,18 +25,21 @@ class Search:
 
     tolerance: float
     max_iterations: int
-    segments: int
-    method: SolverMethod
+    segments: int | None
+    method: SearchMethod
+    damping: Damping
 
     def __post_init__(self) -> None:
         """Refuse at once what would fail at every point."""
-        if self.method not in get_args(SolverMethod):
-            choice = " or ".join(f'"{method}"' for method in get_args(SolverMethod))
-            raise ArgumentError(f'method must be {choice}, not "{self.method}".')
+        for name, choices in (("method", SearchMethod), ("damping", Damping)):
+            if getattr(self, name) not in get_args(choices):
+                choice = " or ".join(f'"{each}"' for each in get_args(choices))
+                raise ArgumentError(f'{name} must be {choice}, not "{getattr(self, name)}".')
         if not 0.0 < self.tolerance < math.inf:
             raise ArgumentError(f"tolerance must be positive and finite, not {self.tolerance}.")
         for name in ("max_iterations", "segments"):
-            if getattr(self, name) < 1:
+            number = getattr(self, name)
+            if number is not None and number < 1:
                 raise ArgumentError(f"{name} must be 1 or more, not {getattr(self, name)}.")
 
 
