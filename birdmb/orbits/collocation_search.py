@@ -105,7 +105,7 @@ def search_by_collocation(
     kind = model.limit_cycle_type if isinstance(model, HasLimitCycleType) else LimitCycle
     return cast(
         "LimitCycle",
-        kind(**fields, iterations=iterations, method="collocation", state_error=found.state_error),
+        kind(**fields, iterations=iterations, state_error=found.state_error),
     )
 
 

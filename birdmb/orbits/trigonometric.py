@@ -42,6 +42,16 @@ def resampled(values: FloatArray, nodes: int) -> FloatArray:
     return interpolated(values, np.arange(nodes) / nodes)
 
 
+def between_nodes(values: FloatArray, parts: FloatArray) -> FloatArray:
+    """Values (N, K, ...) of the interpolant, `parts` (K,) of an interval after each of N nodes."""
+    nodes, count = len(values), len(parts)
+    harmonics = np.fft.rfft(values.reshape(nodes, -1), axis=0)
+    turns = np.exp(2j * np.pi / nodes * np.multiply.outer(np.arange(len(harmonics)), parts))
+    turned = harmonics[:, None, :] * turns[:, :, None]
+    shifted = np.fft.irfft(turned, n=nodes, axis=0)
+    return np.asarray(shifted.reshape(nodes, count, *values.shape[1:]))
+
+
 def without_drift(path: FloatArray) -> FloatArray:
     """Values (K, n) along a period as nodes of a closed path, from `path` (K + 1, n) that is open.
 
