@@ -22,6 +22,10 @@ _GROWTH = 1.5
 # Harmonics that decay more slowly than this from one number of nodes to the next will not reach
 # the accuracy: 1.5 times the nodes take a smooth orbit's error down by far more.
 _SLOWEST_DECAY = 0.5
+# On fewer numbers of nodes an error need not fall off yet.
+_RUNGS_TO_JUDGE = 4
+# A corrected solution is better, not exact.
+_ERROR_PER_CORRECTION = 2.0
 # Round-off of the residual, in units of machine precision times its largest term.
 _NOISE = 100.0
 
@@ -142,7 +146,8 @@ class Collocated:
         residual: of the equations.
         finer: the equations on half as many nodes again.
         finer_u: unknowns there, of this solution corrected by one Newton step.
-        state_error: largest correction, in units of the state scale.
+        state_error: bound of the error of the states, in units of their scale: twice the largest
+            correction.
         iterations: steps of Newton's method on all numbers of nodes.
     """
 
@@ -241,7 +246,7 @@ def _correction(
     step = -lapack.dgetrs(lu, pivots, residual)[0]
     if singular or not np.isfinite(step).all():
         step = -np.linalg.lstsq(matrix, residual)[0]
-    return finer, start + step, float(np.abs(step).max())
+    return finer, start + step, _ERROR_PER_CORRECTION * float(np.abs(step).max())
 
 
 def _refuse_rough(
@@ -254,8 +259,9 @@ def _refuse_rough(
 ) -> None:
     nodes = equations.nodes
     following = more_nodes(nodes)
-    slow = len(errors) > 2 and errors[-1] > _SLOWEST_DECAY * errors[-3]
-    hopeless = len(errors) > 2 and _needed(nodes, errors, accuracy) > most_nodes
+    known = len(errors) >= _RUNGS_TO_JUDGE
+    slow = known and errors[-1] > _SLOWEST_DECAY * errors[-3]
+    hopeless = known and _needed(nodes, errors, accuracy) > most_nodes
     if following <= most_nodes and not slow and not hopeless:
         return
     x, _ = equations.start_and_period(u)
@@ -280,5 +286,7 @@ def _needed(nodes: int, errors: list[float], accuracy: float) -> float:
     Taken as algebraic: a spectral decay only gets faster.
     """
     last, before = errors[-1], errors[-3]
-    order = np.log(before / last) / np.log(_GROWTH**2)
-    return float(nodes * (last / accuracy) ** (1 / max(order, 1e-3)))
+    if not last < before:
+        return math.inf
+    rungs = 2 * math.log(last / accuracy) / math.log(before / last)
+    return nodes * math.exp(min(rungs * math.log(_GROWTH), 100.0))

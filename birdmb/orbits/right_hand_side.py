@@ -13,10 +13,11 @@ from birdmb.orbits.problem import HasJacobian, HasRateJacobians, HasRates, HasRh
 _EPS = float(np.finfo(float).eps)
 # Where truncation and round-off of a central difference balance, in units of the state scale.
 _STEP = _EPS ** (1 / 3)
-# A derivative that a model gives may differ from differences by this part of its size, and more
-# only if the right-hand side bends or jumps within a step, or if it is wrong.
-_AGREES = 1e-4
-_MARGIN = 3.0
+# By how much a derivative must be off differences beyond what these are known to.
+_MARGIN = 10.0
+_CHECKING_STEPS = (1e-3, 3e-5, 1e-6)
+# Differences that are known to no more than this part of themselves do not decide.
+_SHARP = 1e-3
 
 
 @dataclass(frozen=True)
@@ -111,17 +112,28 @@ class RightHandSide:
         return np.broadcast_to((own + noise)[:, :, None], jacobians.shape)
 
     def derivative_gap(self, times: FloatArray, states: FloatArray, jacobians: FloatArray) -> float:
-        """By how much the model's own derivative contradicts differences; 0 where they agree."""
+        """By how much the model's own derivative contradicts differences; 0 where it does not.
+
+        Along one direction in general position, over shorter steps where the right-hand side bends
+        within longer ones.
+        """
         direction = _direction(states)
         claimed = np.einsum("kij,kj->ki", jacobians, direction)
-        near, far = (
-            self._along(times, states, direction, step) for step in (10 * _STEP, 20 * _STEP)
-        )
-        size = max(1.0, float(np.abs(claimed).max()))
-        gap = np.abs(near - claimed)
-        # Where the right-hand side bends within the step, differences decide nothing.
-        own = _MARGIN * np.abs(near - far) + _AGREES * size
-        return float(gap.max()) if (gap > own).any() else 0.0
+        size = 1.0 + float(np.abs(claimed).max())
+        rates = float(np.abs(self.rates(times, states)).max())
+        apart = 0.0
+        for step in _CHECKING_STEPS:
+            near, far = (self._along(times, states, direction, h) for h in (step, 2 * step))
+            gap = np.abs((4 * near - far) / 3 - claimed)
+            truncation = np.abs(near - far)
+            # Richardson's extrapolation is off by about the square of what it takes off.
+            extrapolated = truncation * np.minimum(1.0, 10 * truncation / size)
+            noise = _EPS * (rates + size) / step
+            if (gap > _MARGIN * (extrapolated + noise)).any():
+                apart = max(apart, float(gap.max()))
+            elif truncation.max() <= _SHARP * size:
+                return 0.0
+        return apart
 
     def _along(
         self, times: FloatArray, states: FloatArray, direction: FloatArray, step: float
