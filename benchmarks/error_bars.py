@@ -74,11 +74,11 @@ def main() -> None:
             continue
         true, bars = paired(cycle, exact), cycle.multiplier_errors
         shown = np.abs(exact.multipliers) > SMALLEST
-        worst = float((true / bars)[shown].max())
+        worst = float((true[shown] / bars[shown]).max())
         of_states = float(np.abs((cycle.x0 - exact.x0) / cycle.state_scale).max())
         compared += 1
         exceeding += worst > 1 or of_states > cycle.state_error
-        ratios += (bars / np.maximum(true, np.finfo(float).eps))[shown].tolist()
+        ratios += (bars[shown] / np.maximum(true[shown], np.finfo(float).tiny)).tolist()
         print(
             f"{name}: {cycle.nodes} nodes, |Lambda|max {abs(cycle.multipliers[0]):.6g} "
             f"+- {bars[0]:.1e}, true error / bar {worst:.2g}, of the states "

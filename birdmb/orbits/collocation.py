@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from scipy.linalg import block_diag, lapack
+from scipy.linalg import lapack
 
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
@@ -117,10 +117,11 @@ class CollocationEquations:
     def assemble(self, u: FloatArray, rate_jacobians: FloatArray) -> FloatArray:
         """Derivative of the residual from the derivatives (N, n, n) of the rates."""
         points, period = self.unpack(u)
-        n = points.shape[1]
-        matrix = np.kron(differentiation_matrix(self.nodes), np.eye(n))
-        matrix -= period * block_diag(*rate_jacobians)
-        matrix /= np.sqrt(self.nodes)
+        nodes, n = points.shape
+        blocks = differentiation_matrix(nodes)[:, None, :, None] * np.eye(n)[None, :, None, :]
+        at = np.arange(nodes)
+        blocks[at, :, at, :] -= period * rate_jacobians
+        matrix = blocks.reshape(nodes * n, nodes * n) / np.sqrt(nodes)
         if not self.autonomous:
             return np.asarray(matrix)
         rates = self.rates(points, period)

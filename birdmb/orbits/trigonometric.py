@@ -6,17 +6,21 @@ Methods in MATLAB (2000), chapter 3; Boyd, Chebyshev and Fourier Spectral Method
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 
 from birdmb._typing import FloatArray
 
 
+@functools.lru_cache(maxsize=16)
 def differentiation_matrix(nodes: int) -> FloatArray:
     """Matrix (N, N) from values at N nodes to the interpolant's derivatives by phase there."""
     apart = np.subtract.outer(np.arange(nodes), np.arange(nodes))
     with np.errstate(divide="ignore"):
         matrix = np.pi * (-1.0) ** apart / np.sin(np.pi * apart / nodes)
     np.fill_diagonal(matrix, 0.0)
+    matrix.flags.writeable = False
     return np.asarray(matrix)
 
 
