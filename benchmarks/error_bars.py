@@ -67,7 +67,7 @@ def main() -> None:
         try:
             cycle = birdmb.find_limit_cycle(model, method="collocation")
             exact = birdmb.find_limit_cycle(
-                model, cycle, method="collocation", nodes=4 * cycle.nodes + 1
+                model, cycle, method="collocation", nodes=4 * cycle.nodes + 1, accuracy=1e-9
             )
         except BirdmbError as error:
             print(f"{name}: {str(error)[:90]}", flush=True)

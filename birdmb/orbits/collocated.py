@@ -17,9 +17,10 @@ from birdmb.orbits.trigonometric import resampled
 from birdmb.orbits.variational import flow_jacobians
 
 # The finer multipliers are better, not exact.
-_ERROR_PER_DIFFERENCE = 2.0
-# Errors below this, relative to multipliers above 1, are not worth more derivatives.
-_GOOD = 1e-6
+_ERROR_PER_DIFFERENCE = 3.0
+# Errors below so many times the accuracy of the states, relative to multipliers above 1, are not
+# worth more derivatives.
+_GOOD_PER_ACCURACY = 10.0
 # More instants that leave more than this part of the error meet another one, as of differences.
 _FALLING = 0.5
 _MOST_INSTANTS = 1025
@@ -33,16 +34,19 @@ class _Linearised:
     spectrum: Spectrum
 
 
-def linearise_collocated(found: Collocated, derivative_gap: float = 0.0) -> dict[str, Any]:
+def linearise_collocated(
+    found: Collocated, accuracy: float, derivative_gap: float = 0.0
+) -> dict[str, Any]:
     """Linearise the rates along a collocated orbit.
 
     The multipliers are those of the derivatives at its N nodes. Their error bounds hold what the
-    solution and its derivatives on half as many nodes again make of them (twice the difference,
-    each multiplier paired with its nearest), the differencing of the right-hand side, the stages of
-    the variational equation and the round-off of the eigenvalues. Where the derivatives along a
-    smooth orbit are rougher than it is, as those of stiff joints are, they are taken at more
-    instants of it, as long as that makes the bounds smaller. `derivative_gap` is by how much a
-    derivative that the model gives contradicts the differences that are taken instead.
+    solution and its derivatives on half as many nodes again make of them (three times the
+    difference, each multiplier paired with its nearest), the differencing of the right-hand side,
+    the stages of the variational equation and the round-off of the eigenvalues. Where the
+    derivatives along a smooth orbit are rougher than it is, as those of stiff joints are, they are
+    taken at more instants of it, as long as that makes the bounds smaller and they are above ten
+    times the `accuracy` of the states. `derivative_gap` is by how much a derivative that the model
+    gives contradicts the differences that are taken instead.
 
     Returns:
         The fields of a `LimitCycle` but for its search, by name.
@@ -50,7 +54,10 @@ def linearise_collocated(found: Collocated, derivative_gap: float = 0.0) -> dict
     at = _linearised(found.equations, found.u)
     finer = _linearised(found.finer, found.finer_u)
     errors = _errors(at.spectrum, finer.spectrum)
-    while _worth_more(at.spectrum, errors) and more_nodes(finer.equations.nodes) <= _MOST_INSTANTS:
+    good = _GOOD_PER_ACCURACY * accuracy
+    while not _relative(at.spectrum, errors) <= good:
+        if more_nodes(finer.equations.nodes) > _MOST_INSTANTS:
+            break
         finest = _linearised(*_on_more(finer))
         better = _errors(finer.spectrum, finest.spectrum)
         if not _relative(finer.spectrum, better) < _FALLING * _relative(at.spectrum, errors):
@@ -68,7 +75,7 @@ def linearise_collocated(found: Collocated, derivative_gap: float = 0.0) -> dict
         "start_time": equations.start,
         "points": points * scale,
         "state_scale": scale,
-        "residual": found.state_error * float(scale.max()),
+        "residual": found.equations.closure(found.residual),
         "nodes": found.equations.nodes,
         "monodromy": product(at.factors),
         "segment_jacobians": at.factors,
@@ -108,16 +115,15 @@ def _on_more(at: _Linearised) -> tuple[CollocationEquations, FloatArray]:
 
 def _errors(spectrum: Spectrum, finer: Spectrum) -> FloatArray:
     apart = _distances(spectrum.multipliers, finer.multipliers)
-    return np.asarray(spectrum.errors + _ERROR_PER_DIFFERENCE * apart)
+    # Of one that happens to be right by chance, the others tell.
+    size = np.maximum(np.abs(spectrum.multipliers), np.finfo(float).tiny)
+    typical = size * float((apart / np.maximum(size, 1.0)).max())
+    return np.asarray(spectrum.errors + _ERROR_PER_DIFFERENCE * np.maximum(apart, typical))
 
 
 def _relative(spectrum: Spectrum, errors: FloatArray) -> float:
     """Largest error, relative to multipliers above 1."""
     return float((errors / np.maximum(1.0, np.abs(spectrum.multipliers))).max())
-
-
-def _worth_more(spectrum: Spectrum, errors: FloatArray) -> bool:
-    return not _relative(spectrum, errors) <= _GOOD
 
 
 def _distances(one: ComplexArray, other: ComplexArray) -> FloatArray:

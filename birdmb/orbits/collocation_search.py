@@ -101,7 +101,7 @@ def search_by_collocation(
         found = search(path, period, scale)
         iterations += found.iterations
     _refuse_equilibrium(found, iterations)
-    fields = linearise_collocated(found, gap)
+    fields = linearise_collocated(found, accuracy, gap)
     kind = model.limit_cycle_type if isinstance(model, HasLimitCycleType) else LimitCycle
     return cast(
         "LimitCycle",

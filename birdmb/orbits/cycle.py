@@ -24,7 +24,7 @@ class LimitCycle(FloquetResult):
     A model may name its own subclass as `limit_cycle_type`, to add what it knows of its orbits. Of
     a collocated orbit, `points` are the states at its nodes, or at more instants where the
     multipliers need them, `segment_jacobians` lead from one of them to the next, and `residual` is
-    `state_error` in the units of the largest scale.
+    the largest mismatch of slopes at a node, in the units of the states per period.
 
     Attributes:
         iterations: the accepted iterations of the search, the guess first.

@@ -43,8 +43,8 @@ def periodic_multipliers(factors: FloatArray, errors: FloatArray, scale: FloatAr
     `product_multipliers`, so take as many segments as -log10 of the smallest multiplier over 5.
     An accuracy of the Jacobians themselves of 1e-10, say, still bounds what is left of a
     multiplier that a single factor reduces by 1e-10; the error bounds say so. Neighbouring factors
-    are multiplied as long as their product stays well conditioned. Costs 120 QR factorisations a
-    group of factors.
+    are multiplied as long as their product stays well conditioned. Costs up to 120 QR
+    factorisations a group of factors.
     """
     units = np.divide.outer(scale, scale)
     every, every_bound = factors / units, errors / units
@@ -100,10 +100,8 @@ def _sweep(factors: FloatArray) -> tuple[FloatArray, FloatArray]:
         gaps = np.diff(growth / sweeps)
         # What a subspace holds of the others shrinks by the ratio of the moduli in each sweep.
         between = gaps[gaps < np.log(_BLOCK_RATIO)]
-        if (
-            sweeps > _SWEEPS_TO_SETTLE
-            and ((sweeps - _SWEEPS_TO_SETTLE) * between < _LOG_LEFT).all()
-        ):
+        settled = sweeps - _SWEEPS_TO_SETTLE
+        if settled > 0 and (settled * between < _LOG_LEFT).all():
             break
     return bases, growth / sweeps
 
