@@ -45,8 +45,9 @@ def linearise_collocated(
     the stages of the variational equation and the round-off of the eigenvalues. Where the
     derivatives along a smooth orbit are rougher than it is, as those of stiff joints are, they are
     taken at more instants of it, as long as that makes the bounds smaller and they are above ten
-    times the `accuracy` of the states; what the error of the orbit makes is then added. `derivative_gap` is by how much a derivative that the model
-    gives contradicts the differences that are taken instead.
+    times the `accuracy` of the states; what the error of the orbit makes is then added.
+    `derivative_gap` is by how much a derivative that the model gives contradicts the differences
+    that are taken instead.
 
     Returns:
         The fields of a `LimitCycle` but for its search, by name.
