@@ -19,7 +19,7 @@ from birdmb.models.gusts import Gust
 from birdmb.models.implicit import integrate_implicitly
 from birdmb.models.instants import Instant, Instants
 from birdmb.models.integration import Integration, Integrator, integration_for
-from birdmb.models.multibody_kernel import air_forces, body_velocity
+from birdmb.models.multibody_kernel import body_velocity, tree_forces
 from birdmb.models.rates_kernel import Motion
 from birdmb.models.rigid import RigidModel
 from birdmb.models.springs import has_two_sides, spring_torques, springs_of
@@ -28,6 +28,7 @@ from birdmb.models.tree_rates import TreeRates
 from birdmb.models.wing_model import BODY_SCALE, BODY_STATES, BODY_UNITS, WingModel
 from birdmb.topology import Bird
 from birdmb.wing.chain import joints_turning_the_whole
+from birdmb.wing.shape import WingShape
 
 _JOINT_SCALE = (0.5, 10.0)  # rad, rad/s
 _BEATS_TO_SETTLE = 6
@@ -74,6 +75,7 @@ class MultibodyModel(WingModel):
         self.state_units = BODY_UNITS[:free] + ("rad", "rad/s") * len(names)
         compliant = [joint.mode == "compliant" for joint in bird.joints]
         self._compliant = np.array(compliant + [True] * len(hinges), dtype=bool)
+        self._right_wing = slice(BODY_COORDINATES, BODY_COORDINATES + self._compliant.size)
         self._springs = springs_of(bird)
         self.turning = joints_turning_the_whole(self.wing)
         shaping = np.flatnonzero(self._compliant[self.turning :]) + self.turning
@@ -235,8 +237,9 @@ class MultibodyModel(WingModel):
         """
         state = np.asarray(x, dtype=float)
         _, forces = self.accelerations(t, state)
-        right = forces[BODY_COORDINATES : BODY_COORDINATES + self._compliant.size]
-        return right + self._spring_torques(self.instant(t), *self.joint_motion(t, state))
+        return forces[self._right_wing] + self._spring_torques(
+            self.instant(t), *self.joint_motion(t, state)
+        )
 
     def initial_guess(self) -> FloatArray:
         """State (n,) at t = 0: the rigid bird's, with the compliant joints settled about it.
@@ -314,30 +317,29 @@ class MultibodyModel(WingModel):
 
     def _forces(self, t: float, q: FloatArray, v: FloatArray) -> FloatArray:
         """Generalised forces (n,) of air, springs and dampers: Exudyn's user function."""
-        if not (np.isfinite(q).all() and np.isfinite(v).all()):
-            return np.full(q.size, np.nan)
-        joints = self._compliant.size
-        angles = q[BODY_COORDINATES : BODY_COORDINATES + joints]
-        rates = v[BODY_COORDINATES : BODY_COORDINATES + joints]
         instant = self.instant(t)
-        forward, down = self.air_velocity(t)
         with overflow_told(self.bird, f"the force of the air at t = {t:.4g} s"):
-            body, torques, clearance = air_forces(
+            forces, clearance = tree_forces(
                 self.wing,
-                instant.shape or self._instants.shape(t, angles, rates),
+                instant.shape or self._shape(t, q, v),
                 self.turning,
-                angles,
-                rates,
                 self.airframe,
-                q[2],
-                v[0] - forward,
-                v[1] - down,
-                v[2],
+                self._springs,
+                instant.angles,
+                instant.rates,
+                q,
+                v,
+                self.air_velocity(t),
             )
         if not clearance >= 0.0:
-            raise wing_misplaced(self.bird, t, angles, clearance)
-        torques += self._spring_torques(instant, angles, rates)
-        return np.concatenate([body, torques, torques])
+            raise wing_misplaced(self.bird, t, q[self._right_wing], clearance)
+        return np.asarray(forces)
+
+    def _shape(self, t: float, q: FloatArray, v: FloatArray) -> WingShape:
+        angles, rates = q[self._right_wing], v[self._right_wing]
+        if not (np.isfinite(angles).all() and np.isfinite(rates).all()):
+            angles, rates, _ = driven(self.wing, t)  # any will do: there are no forces
+        return self._instants.shape(t, angles, rates)
 
     def _spring_torques(self, driver: Instant, angles: FloatArray, rates: FloatArray) -> FloatArray:
         return spring_torques(self._springs, angles - driver.angles, rates - driver.rates)
