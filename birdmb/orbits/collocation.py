@@ -200,7 +200,7 @@ def collocate(
     first: FloatArray | None = None
 
     def record(iteration: Iteration) -> None:
-        history.append(replace(iteration, number=len(history)))
+        history.append(replace(iteration, number=len(history), nodes=equations.nodes))
         if callback is not None:
             callback(history[-1])
 
