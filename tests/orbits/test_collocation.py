@@ -120,6 +120,24 @@ def test_roessler(c):
     assert found.liouville_defect() < 1e-6
 
 
+def test_roessler_s_unstable_cycles():
+    """Of period one beside the chaos at c = 10, where shooting from the same guess finds none."""
+    found = collocated(roessler(4.5), [0.0, -6.0, 0.05], period_guess=5.9)
+    shot = find_limit_cycle(roessler(4.5), [0.0, -6.0, 0.05], period_guess=5.9, segments=6)
+    assert found.period == pytest.approx(shot.period, abs=1e-8)
+    apart = np.abs(found.multipliers - shot.multipliers)
+    assert (apart < found.multiplier_errors + shot.multiplier_errors).all()
+    wild = collocated(roessler(10), [0.0, -9.0, 0.02], period_guess=5.9)
+    times = wild.period * np.arange(6) / 6
+    again = find_limit_cycle(
+        roessler(10), wild.trajectory(times).states, period_guess=wild.period, segments=6
+    )
+    assert wild.period == pytest.approx(again.period, abs=1e-7)
+    apart = np.abs(wild.multipliers - again.multipliers)
+    assert (apart < wild.multiplier_errors + again.multiplier_errors).all()
+    assert wild.stability == "unstable"
+
+
 def duffing(omega):
     return OdeModel(
         lambda t, x: [x[1], -0.1 * x[1] - x[0] - x[0] ** 3 + 0.3 * np.cos(omega * t)],
