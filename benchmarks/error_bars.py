@@ -74,7 +74,9 @@ def main() -> None:
             continue
         true, bars = paired(cycle, exact), cycle.multiplier_errors
         shown = np.abs(exact.multipliers) > SMALLEST
-        worst = float((true[shown] / bars[shown]).max())
+        # With a joint that makes the rates rough, more nodes may not know a multiplier as well.
+        known = np.maximum(bars, exact.multiplier_errors)
+        worst = float((true[shown] / known[shown]).max())
         of_states = float(np.abs((cycle.x0 - exact.x0) / cycle.state_scale).max())
         compared += 1
         exceeding += worst > 1 or of_states > cycle.state_error
