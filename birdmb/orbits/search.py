@@ -24,6 +24,7 @@ from birdmb.orbits.shooting_search import search_by_shooting
 
 SearchMethod = Literal["auto", "collocation", "shooting"]
 
+ACCURACY = 1e-7
 # An automatic choice goes on to shooting rather than to more nodes, or to more unknowns, than this.
 _MOST_NODES_BY_CHOICE = 129
 _MOST_UNKNOWNS_BY_CHOICE = 1000
@@ -43,7 +44,7 @@ def find_limit_cycle(
     tolerance: float = 1e-9,
     max_iterations: int = 50,
     nodes: int | None = None,
-    accuracy: float = 1e-7,
+    accuracy: float = ACCURACY,
     segments: int | None = None,
     jacobian: Literal["auto", "variational", "finite-differences"] = "auto",
     jacobian_guess: npt.ArrayLike | None = None,

@@ -6,12 +6,10 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from typing import Any, TypeAlias, cast
 
-import numpy as np
-import numpy.typing as npt
-
+from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError, StateError
 from birdmb.models import FlightCycle
-from birdmb.orbits import Model, find_limit_cycle
+from birdmb.orbits import LimitCycle, Model, find_limit_cycle
 from birdmb.topology import Bird
 
 ModelFactory: TypeAlias = Callable[[Bird], Model]
@@ -31,14 +29,11 @@ class WarmCycles:
         self, bird: Bird, model: ModelFactory, options: Mapping[str, Any] | None = None
     ) -> None:
         self._bird, self._model, self._options = bird, model, dict(options or {})
-        self.start_from(None, None)
+        self._last: FlightCycle | FloatArray | None = None
 
-    def start_from(self, x0: npt.ArrayLike | None, jacobians: npt.ArrayLike | None) -> None:
-        """Start the next one from a state x0 (n,), and from segment Jacobians (M, n, n) if given.
-
-        `None` for both: from the model's own guess.
-        """
-        self._x0, self._jacobians = x0, jacobians
+    def start_from(self, guess: FlightCycle | FloatArray) -> None:
+        """Start the next one from a cycle, or from a state (n,)."""
+        self._last = guess
 
     def __call__(self, values: Mapping[str, Any]) -> FlightCycle:
         """The limit cycle with these values by dotted name.
@@ -49,16 +44,34 @@ class WarmCycles:
             StateError: the search could not start, or the wing cannot be modelled.
         """
         model = self._model(self._bird.with_values(values))
+        last = self._last
         # A varied mode of a joint may have given the one before other states.
-        if self._x0 is not None and np.size(self._x0) == len(model.state_names):
+        if last is not None and _states(last) == len(model.state_names):
             with suppress(OrbitError, StateError):
-                return self._kept(model, self._x0, self._jacobians)
-        return self._kept(model, None, None)
+                if isinstance(last, FlightCycle):
+                    return self._kept(find_near(model, last, self._options))
+                return self._kept(find_limit_cycle(model, last, **self._options))
+        return self._kept(find_limit_cycle(model, **self._options))
 
-    def _kept(
-        self, model: Model, guess: npt.ArrayLike | None, jacobians: npt.ArrayLike | None
-    ) -> FlightCycle:
-        found = find_limit_cycle(model, guess, jacobian_guess=jacobians, **self._options)
-        cycle = cast("FlightCycle", found)
-        self.start_from(cycle.x0, cycle.segment_jacobians)
-        return cycle
+    def _kept(self, cycle: LimitCycle) -> FlightCycle:
+        self._last = cast("FlightCycle", cycle)
+        return self._last
+
+
+def find_near(model: Model, cycle: LimitCycle, options: Mapping[str, Any]) -> LimitCycle:
+    """The limit cycle of a model, from one of a model like it; raises as `find_limit_cycle`.
+
+    Beside an orbit that had to be shot, because it is not smooth, collocation is not tried again.
+    """
+    if cycle.method == "collocation":
+        return find_limit_cycle(model, cycle, **options)
+    return find_limit_cycle(
+        model,
+        cycle.points,
+        jacobian_guess=cycle.segment_jacobians,
+        **{**options, "method": "shooting", "segments": len(cycle.points)},
+    )
+
+
+def _states(guess: FlightCycle | FloatArray) -> int:
+    return len(guess.state_names) if isinstance(guess, FlightCycle) else guess.size

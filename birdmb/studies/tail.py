@@ -218,7 +218,7 @@ class _LevelFlights:
             tolerance=1e-6,
             guess=self._last or TrimGuess({ROLL: 0.0}),
         )
-        self._last = TrimGuess(trim.values, trim.cycle.x0)
+        self._last = TrimGuess(trim.values, trim.cycle)
         return float(np.log(np.abs(trim.cycle.multipliers).max()))
 
     def crossing(self, amplitude: float, openings: tuple[float, float]) -> float | None:

@@ -17,8 +17,8 @@ from birdmb.models.flight_cycle import world_velocity
 from birdmb.models.wing_model import WingModel
 from birdmb.orbits.newton import Iteration, solve
 
-_TOLERANCE = 1e-10  # below what cycles are searched to, so that theirs is met at once
-_ITERATIONS = 12
+TOLERANCE = 1e-10  # below what cycles are searched to, so that theirs is met at once
+ITERATIONS = 12
 _LEAST_DAMPING = 1 / 16  # a search that creeps seldom arrives, and takes long
 _STEP = 1e-6  # of the state scale and of the distance between the bounds
 
@@ -61,9 +61,9 @@ class TrimEquations:
             self,
             np.concatenate([x0 / scale, (point - self._low) / self._width]),
             damping="line-search",
-            tolerance=_TOLERANCE,
-            max_iterations=_ITERATIONS,
-            callback=_give_up_creeping,
+            tolerance=TOLERANCE,
+            max_iterations=ITERATIONS,
+            callback=give_up_creeping,
         )
         point, x0, _ = self._unpacked(u)
         return point, x0
@@ -117,7 +117,8 @@ class TrimEquations:
         return self._last[1]
 
 
-def _give_up_creeping(step: Iteration) -> None:
+def give_up_creeping(step: Iteration) -> None:
+    """Raise `OrbitError` where steps are shortened much."""
     if step.damping < _LEAST_DAMPING:
         raise OrbitError(
             f"the search creeps after {step.number} steps, at a residual of {step.residual:.3g}."
