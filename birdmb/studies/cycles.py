@@ -4,12 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from contextlib import suppress
+from dataclasses import replace
 from typing import Any, TypeAlias, cast
+
+import numpy as np
+import numpy.typing as npt
 
 from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError, StateError
 from birdmb.models import FlightCycle
 from birdmb.orbits import LimitCycle, Model, find_limit_cycle
+from birdmb.orbits.collocation import FIRST_NODES
+from birdmb.orbits.collocation_search import nodes_shown
 from birdmb.topology import Bird
 
 ModelFactory: TypeAlias = Callable[[Bird], Model]
@@ -59,18 +65,35 @@ class WarmCycles:
 
 
 def find_near(model: Model, cycle: LimitCycle, options: Mapping[str, Any]) -> LimitCycle:
-    """The limit cycle of a model, from one of a model like it; raises as `find_limit_cycle`.
-
-    Beside an orbit that had to be shot, because it is not smooth, collocation is not tried again.
-    """
+    """The limit cycle of a model, from one of a model like it; raises as `find_limit_cycle`."""
     if cycle.method == "collocation":
         return find_limit_cycle(model, cycle, **options)
-    return find_limit_cycle(
-        model,
-        cycle.points,
-        jacobian_guess=cycle.segment_jacobians,
-        **{**options, "method": "shooting", "segments": len(cycle.points)},
-    )
+    return shot_near(model, cycle.points, cycle.segment_jacobians, options)
+
+
+def shot_near(
+    model: Model, points: FloatArray, jacobians: npt.ArrayLike | None, options: Mapping[str, Any]
+) -> LimitCycle:
+    """The limit cycle of a model by shooting, from one of a model like it that was shot.
+
+    Collocation is not tried again beside an orbit that it was too rough for.
+
+    Args:
+        model: the model.
+        points: states (M, n) at the starts of the other one's segments.
+        jacobians: its segment Jacobians (M, n, n), if known.
+        options: what else `find_limit_cycle` takes.
+    """
+    shooting = {**options, "method": "shooting", "segments": options.get("segments") or len(points)}
+    found = find_limit_cycle(model, points, jacobian_guess=jacobians, **shooting)
+    asked = options.get("segments") is not None or options.get("method") == "shooting"
+    return found if asked else replace(found, method_reason="so was the cycle it started from")
+
+
+def path_for_search(cycle: LimitCycle) -> FloatArray:
+    """States (K, n) of a collocated cycle at as many nodes as a search from it begins with."""
+    nodes = max(FIRST_NODES, nodes_shown(cycle))
+    return cycle.trajectory(cycle.start_time + cycle.period * np.arange(nodes) / nodes).states
 
 
 def _states(guess: FlightCycle | FloatArray) -> int:

@@ -6,19 +6,22 @@ import math
 import textwrap
 import threading
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass
 from typing import Any, cast
 
+import numpy as np
 from threadpoolctl import threadpool_limits
 
+from birdmb._typing import FloatArray
 from birdmb.errors import BirdmbError, OrbitError, StateError
-from birdmb.models import FlightCycle, MultibodyModel
+from birdmb.models import FlightCycle
 from birdmb.models.wing_model import WingModel
-from birdmb.orbits import find_limit_cycle
-from birdmb.orbits.problem import HasInitialGuess
-from birdmb.studies.cycles import ModelFactory
+from birdmb.orbits import Model, find_limit_cycle
+from birdmb.orbits.collocation import FIRST_NODES
+from birdmb.orbits.problem import HasGuessedPath, HasInitialGuess, HasRates
+from birdmb.studies.cycles import ModelFactory, path_for_search, shot_near
 from birdmb.studies.sweeps.grid import Value
 from birdmb.studies.sweeps.sensitivity import sensitivities
 from birdmb.studies.sweeps.settings import Search, Trimming
@@ -27,6 +30,8 @@ from birdmb.studies.validity import assess_validity
 from birdmb.topology import Bird
 
 COLD = "cold"
+KEPT_FOR_NEIGHBOURS = ("x0", "monodromy", "trimmed", "method", "orbit", "state_scale")
+_DIGITS = 6  # after the point, of states in units of their scale
 _LONGEST_REASON = 600  # characters; foreign errors may bring a traceback
 
 
@@ -36,15 +41,23 @@ class Guess:
 
     Attributes:
         place: the neighbour's, as the store writes it.
-        x0: its state at t = 0, by name.
-        monodromy: derivative (n, n) of its state after a beat with respect to x0.
-        trimmed: values of the parameters that it was trimmed by, by name, if it was.
+        flight: what the store keeps of it, as `described`, by the names KEPT_FOR_NEIGHBOURS.
     """
 
     place: str
-    x0: Mapping[str, float]
-    monodromy: Sequence[Sequence[float]]
-    trimmed: Mapping[str, float]
+    flight: Mapping[str, Any]
+
+    @property
+    def state_names(self) -> tuple[str, ...]:
+        """Names of its n states."""
+        return tuple(self.flight["x0"])
+
+    @property
+    def orbit(self) -> FloatArray:
+        """States (K, n) at K even instants of its beat; K = 1 if it was shot."""
+        if self.flight["orbit"] is None:
+            return np.array([list(self.flight["x0"].values())])
+        return np.array(self.flight["orbit"]) * self.flight["state_scale"]
 
 
 @dataclass(frozen=True)
@@ -93,7 +106,10 @@ def compute(task: Task) -> Outcome:
                 trimmed = dict[str, float]()
             else:
                 cycle, trimmed, start = _trimmed(task, task.trimming)
-            result = described(cycle) | {"trimmed": trimmed, **_answers(task, cycle, trimmed)}
+            result = described(cycle) | {"trimmed": trimmed}
+            result["sensitivity"] = sensitivities(
+                cycle, task.bird, task.model, task.values, task.steps, task.trimming, trimmed
+            )
     except KeyboardInterrupt:
         raise
     except BaseException as error:
@@ -136,11 +152,14 @@ def _one_thread() -> Iterator[None]:
 
 
 def prepare(bird: Bird, model: ModelFactory) -> None:
-    """Load or compile the kernels, by flying a beat; a bird that cannot is left to its points."""
+    """Load or compile the kernels, along a guess; a bird that cannot is left to its points."""
     with suppress(Exception):
-        flying = model(bird)
+        flying = cast("WingModel", model(bird))
         if isinstance(flying, HasInitialGuess):
-            flying.flow(flying.initial_guess(), 0.0, bird.period)
+            flying.loads(0.0, flying.initial_guess())
+        if isinstance(flying, HasGuessedPath) and isinstance(flying, HasRates):
+            times = bird.period * np.arange(FIRST_NODES) / FIRST_NODES
+            flying.rates(times, flying.guess_along(times))
 
 
 def _found(task: Task) -> tuple[FlightCycle, str]:
@@ -148,20 +167,24 @@ def _found(task: Task) -> tuple[FlightCycle, str]:
     search = asdict(task.search)
     guess = task.guess
     # A varied mode of a joint may have given the neighbour other states.
-    if guess is not None and tuple(guess.x0) == model.state_names:
+    if guess is not None and guess.state_names == model.state_names:
         with suppress(OrbitError, StateError):
-            x0 = list(guess.x0.values())
-            # Of several segments only the product is kept.
-            known = [guess.monodromy] if task.search.segments in {None, 1} else None
-            cycle = find_limit_cycle(model, x0, jacobian_guess=known, **search)
-            return cast("FlightCycle", cycle), guess.place
+            return _found_near(model, guess, search), guess.place
     return cast("FlightCycle", find_limit_cycle(model, **search)), COLD
+
+
+def _found_near(model: Model, guess: Guess, search: Mapping[str, Any]) -> FlightCycle:
+    if guess.flight["method"] == "collocation":
+        return cast("FlightCycle", find_limit_cycle(model, guess.orbit, **search))
+    # Of several segments only the product is kept.
+    known = [guess.flight["monodromy"]] if search["segments"] in {None, 1} else None
+    return cast("FlightCycle", shot_near(model, guess.orbit, known, search))
 
 
 def _trimmed(task: Task, trimming: Trimming) -> tuple[FlightCycle, dict[str, float], str]:
     guess, near = task.guess, None
     if guess is not None:
-        near = TrimGuess(guess.trimmed, list(guess.x0.values()))
+        near = TrimGuess(guess.flight["trimmed"], guess.orbit)
     trim = trim_flight(
         task.bird.with_values(task.values),
         trimming.parameters,
@@ -176,19 +199,13 @@ def _trimmed(task: Task, trimming: Trimming) -> tuple[FlightCycle, dict[str, flo
     return trim.cycle, trim.values, start
 
 
-def _answers(task: Task, cycle: FlightCycle, trimmed: Mapping[str, float]) -> dict[str, Any]:
-    found = sensitivities(
-        cycle, task.bird, task.model, task.values, task.steps, task.trimming, trimmed
-    )
-    return {"sensitivity": found, "state_scale": cycle.state_scale.tolist()}
-
-
 def described(cycle: FlightCycle) -> dict[str, Any]:
     """What is kept of a limit cycle, fit for JSON: units as in `FlightCycle`, `None` for NaN."""
     model = cast("WingModel", cycle.model)
     validity = assess_validity(cycle)
     numbers = {
         "residual": cycle.residual,
+        "state_error": cycle.state_error,
         "integration_error": cycle.integration_error,
         "energy_imbalance": cycle.energy_imbalance,
         "mean_speed": cycle.mean_speed,
@@ -203,10 +220,16 @@ def described(cycle: FlightCycle) -> dict[str, Any]:
         "largest_tail_angle": validity.largest_tail_angle,
         "period": cycle.period,
         "iterations": len(cycle.iterations) - 1,
-        "steps_per_beat": model.steps_per_beat,
     }
+    collocated = cycle.method == "collocation"
     return {
         **{name: value if math.isfinite(value) else None for name, value in numbers.items()},
+        # Integrated are only cycles that were shot.
+        "nodes": cycle.nodes,
+        "steps_per_beat": None if collocated else model.steps_per_beat,
+        "integrator": "" if collocated else model.integration_method,
+        "method": cycle.method,
+        "method_reason": cycle.method_reason,
         "x0": dict(zip(cycle.state_names, cycle.x0.tolist(), strict=True)),
         "multiplier_real": cycle.multipliers.real.tolist(),
         "multiplier_imag": cycle.multipliers.imag.tolist(),
@@ -215,6 +238,16 @@ def described(cycle: FlightCycle) -> dict[str, Any]:
         "monodromy": cycle.monodromy.tolist(),
         "stability": cycle.stability,
         "flight": "forwards" if cycle.why_no_flight is None else "backwards",
-        "integrator": model.integration.method if isinstance(model, MultibodyModel) else "explicit",
+        "state_scale": cycle.state_scale.tolist(),
+        "orbit": _orbit(cycle) if collocated else None,
         "warning": " ".join(validity.warnings),
     }
+
+
+def _orbit(cycle: FlightCycle) -> list[list[float]]:
+    """States (K, n) of a collocated cycle in units of their scale: a guess for its neighbours.
+
+    As few as a search from them begins with, and rounded: it only has to begin nearby.
+    """
+    path = path_for_search(cycle) / cycle.state_scale
+    return [[round(value, _DIGITS) for value in state] for state in path.tolist()]

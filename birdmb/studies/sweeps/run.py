@@ -19,7 +19,7 @@ from birdmb.studies.relevance import check_relevant
 from birdmb.studies.sweeps.checks import check_processes, check_trimming
 from birdmb.studies.sweeps.dispatch import on_executor, on_processes
 from birdmb.studies.sweeps.grid import Grid, Place, Value, parent
-from birdmb.studies.sweeps.point import Guess, Outcome, Task
+from birdmb.studies.sweeps.point import KEPT_FOR_NEIGHBOURS, Guess, Outcome, Task
 from birdmb.studies.sweeps.settings import Search, Trimming, identity
 from birdmb.studies.sweeps.store import Store, place_text
 from birdmb.studies.sweeps.study import Study
@@ -181,7 +181,7 @@ class _Filling:
             return None
         result = self._points[before].result
         assert result is not None
-        return Guess(place_text(before), result["x0"], result["monodromy"], result["trimmed"])
+        return Guess(place_text(before), {name: result[name] for name in KEPT_FOR_NEIGHBOURS})
 
     def _nearest_flight(self, place: Place | None) -> Place | None:
         """The place, or the first of its predecessors that has a flight.

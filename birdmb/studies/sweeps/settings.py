@@ -82,6 +82,12 @@ class Trimming:
         if not 0.0 < self.tolerance < math.inf:
             raise ArgumentError(f"the trim's tolerance must be positive, not {self.tolerance}.")
 
+    @property
+    def targets(self) -> dict[str, float]:
+        """What the flight is trimmed to, m/s, by name."""
+        climb = {"climb_rate": self.climb_rate}
+        return climb if self.speed is None else climb | {"speed": self.speed}
+
 
 def identity(
     bird: Bird, model: ModelFactory, search: Search, trimming: Trimming | None
