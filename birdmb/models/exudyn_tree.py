@@ -22,6 +22,7 @@ from birdmb._typing import BoolArray, FloatArray
 from birdmb.errors import StateError
 from birdmb.models.compiled_calls import COMPILED, Carrier, calls_compiled_code
 from birdmb.models.feather_rods import FeatherRod, feather_rods
+from birdmb.models.tree_kernel import TreeLinks
 from birdmb.topology import BONES, Bird
 
 BODY_COORDINATES = 3
@@ -136,6 +137,34 @@ def _add_wing(
     # Exudyn divides by the mass that hangs on a link: one that carries none gives NaN.
     links[-1].mass = max(links[-1].mass, _NEXT_TO_NO_MASS)
     links.extend(hinges)
+
+
+def tree_links(bird: Bird) -> TreeLinks:
+    """Body and right wing of the tree, for compiled rates."""
+    links = bird_links(bird)
+    body, wing = links[BODY_COORDINATES - 1], links[BODY_COORDINATES:]
+    wing = wing[: len(wing) // 2]
+    to_body = body.transformation
+    parents = np.array([link.parent for link in wing]) - BODY_COORDINATES
+    carried = parents < 0
+    return TreeLinks(
+        parent=parents,
+        offset=np.array(
+            [to_body @ k.offset if own else k.offset for k, own in zip(wing, carried, strict=True)]
+        ),
+        axes=np.array(
+            [
+                to_body @ k.transformation if own else k.transformation
+                for k, own in zip(wing, carried, strict=True)
+            ]
+        ),
+        mass=np.array([link.mass for link in wing]),
+        centre=np.array([link.centre for link in wing]),
+        inertia=np.array([link.inertia for link in wing]),
+        body_mass=body.mass,
+        body_inertia=float(body.inertia[2, 2]),
+        gravity=bird.gravity,
+    )
 
 
 def _add_tree(mbs: Any, links: Sequence[_Link], gravity: float, **options: Any) -> tuple[Any, Any]:

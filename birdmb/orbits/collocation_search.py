@@ -102,16 +102,18 @@ def search_by_collocation(
         found = search(path, period, scale)
         iterations += found.iterations
     _refuse_equilibrium(found, iterations)
-    return collocated_cycle(replace(found, iterations=iterations), gap)
+    return collocated_cycle(replace(found, iterations=iterations), accuracy, gap)
 
 
-def collocated_cycle(found: Collocated, derivative_gap: float = 0.0) -> LimitCycle:
+def collocated_cycle(
+    found: Collocated, accuracy: float, derivative_gap: float = 0.0
+) -> LimitCycle:
     """The cycle that was found, of the type that its model names; see `linearise_collocated`."""
     model = found.equations.rhs.model
-    fields = linearise_collocated(found, derivative_gap)
+    fields = linearise_collocated(found, accuracy, derivative_gap)
     fields |= {"iterations": found.iterations, "state_error": found.state_error}
     kind = model.limit_cycle_type if isinstance(model, HasLimitCycleType) else LimitCycle
-    return cast("LimitCycle", kind(**fields, method="collocation"))
+    return cast("LimitCycle", kind(**fields))
 
 
 def nodes_shown(guess: npt.ArrayLike | FloquetResult | None) -> int:

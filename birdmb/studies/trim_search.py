@@ -142,7 +142,7 @@ class TrimSearch:
         equations = CollocatedTrim(self._model_at, self.low, self.high, self._targets, nodes)
         accuracy = self._options.get("accuracy", ACCURACY)
         point, found = solve_collocated(equations, path, point, accuracy)
-        return point, cast("FlightCycle", collocated_cycle(found))
+        return point, cast("FlightCycle", collocated_cycle(found, accuracy))
 
     def _forward_path(self, nodes: int) -> FloatArray:
         """States (nodes, n) over a beat of a body in level forward flight."""
