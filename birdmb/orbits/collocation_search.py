@@ -105,9 +105,7 @@ def search_by_collocation(
     return collocated_cycle(replace(found, iterations=iterations), accuracy, gap)
 
 
-def collocated_cycle(
-    found: Collocated, accuracy: float, derivative_gap: float = 0.0
-) -> LimitCycle:
+def collocated_cycle(found: Collocated, accuracy: float, derivative_gap: float = 0.0) -> LimitCycle:
     """The cycle that was found, of the type that its model names; see `linearise_collocated`."""
     model = found.equations.rhs.model
     fields = linearise_collocated(found, accuracy, derivative_gap)
