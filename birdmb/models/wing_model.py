@@ -108,9 +108,10 @@ class WingModel(ABC):
         """The body's part u, w, q, theta (4,) of a state."""
         return x[:4]
 
-    def joint_motion(self, t: float, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def joint_motion(self, t: float, x: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Angles (A,) rad and rates (A,) rad/s of the right wing's joints and hinges at t (s)."""
-        (angles,), (rates,) = self.joint_motion_along(np.array([t]), x[None, :])
+        states = np.asarray(x, dtype=float)[None, :]
+        (angles,), (rates,) = self.joint_motion_along(np.array([t]), states)
         return angles, rates
 
     def joint_motion_along(

@@ -24,7 +24,7 @@ from birdmb.orbits.shooting_search import search_by_shooting
 
 SearchMethod = Literal["auto", "collocation", "shooting"]
 
-ACCURACY = 1e-7
+TOLERANCE, ACCURACY = 1e-9, 1e-7
 # An automatic choice goes on to shooting rather than to more nodes, or to more unknowns, than this.
 _MOST_NODES_BY_CHOICE = 129
 _MOST_UNKNOWNS_BY_CHOICE = 1000
@@ -41,7 +41,7 @@ def find_limit_cycle(
     period_guess: float | None = None,
     start_time: float = 0.0,
     damping: Damping = "line-search",
-    tolerance: float = 1e-9,
+    tolerance: float = TOLERANCE,
     max_iterations: int = 50,
     nodes: int | None = None,
     accuracy: float = ACCURACY,

@@ -13,13 +13,37 @@ import numpy.typing as npt
 from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError, StateError
 from birdmb.models import FlightCycle
+from birdmb.models.wing_model import WingModel
 from birdmb.orbits import LimitCycle, Model, find_limit_cycle
 from birdmb.orbits.collocation import FIRST_NODES
 from birdmb.orbits.collocation_search import nodes_shown
 from birdmb.topology import Bird
 
+_MODELS_KEPT = 8
+
 ModelFactory: TypeAlias = Callable[[Bird], Model]
 """Turns a bird into a model: `RigidModel`, `MultibodyModel`, or either with options bound."""
+
+
+class KeptModels:
+    """Models of a bird at parameters (k,), the last few of them kept.
+
+    Args:
+        model_at: makes one.
+    """
+
+    def __init__(self, model_at: Callable[[FloatArray], WingModel]) -> None:
+        self._model_at = model_at
+        self._kept: dict[tuple[float, ...], WingModel] = {}
+
+    def __call__(self, point: FloatArray) -> WingModel:
+        """The model; raises what making it raises."""
+        key = tuple(point.tolist())
+        if key not in self._kept:
+            if len(self._kept) >= _MODELS_KEPT:
+                del self._kept[next(iter(self._kept))]
+            self._kept[key] = self._model_at(point)
+        return self._kept[key]
 
 
 class WarmCycles:
@@ -92,7 +116,11 @@ def shot_near(
 
 def path_for_search(cycle: LimitCycle) -> FloatArray:
     """States (K, n) of a collocated cycle at as many nodes as a search from it begins with."""
-    nodes = max(FIRST_NODES, nodes_shown(cycle))
+    return path_at_nodes(cycle, max(FIRST_NODES, nodes_shown(cycle)))
+
+
+def path_at_nodes(cycle: LimitCycle, nodes: int) -> FloatArray:
+    """States (nodes, n) of a cycle at even instants of its period."""
     return cycle.trajectory(cycle.start_time + cycle.period * np.arange(nodes) / nodes).states
 
 

@@ -6,7 +6,7 @@ parameters folds back, the trimmed flight does not.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -14,7 +14,6 @@ import numpy as np
 from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError, StateError
 from birdmb.models.flight_cycle import world_velocity
-from birdmb.models.wing_model import WingModel
 from birdmb.orbits.collocation import (
     Collocated,
     CollocationEquations,
@@ -24,15 +23,11 @@ from birdmb.orbits.collocation import (
 from birdmb.orbits.newton import Iteration, solve
 from birdmb.orbits.right_hand_side import RightHandSide
 from birdmb.orbits.trigonometric import resampled
-from birdmb.studies.trim_equations import ITERATIONS, TOLERANCE, give_up_creeping
+from birdmb.studies.cycles import KeptModels
+from birdmb.studies.trim_equations import ITERATIONS, give_up_creeping
 
 _STEP = 1e-6  # of the distance between the bounds
 _MOST_NODES = 129
-_MODELS_KEPT = 8
-# Of the accuracy: what is left of the residual before it is known whether the nodes are enough.
-_PRELIMINARY = 0.1
-
-Equations = CollocationEquations
 
 
 class CollocatedTrim:
@@ -43,7 +38,7 @@ class CollocatedTrim:
     in `CollocationEquations`, then (k,) in m/s, the means being those over the nodes.
 
     Args:
-        model_at: makes the model at parameters (k,).
+        model_at: the models at parameters (k,).
         low: lower bounds (k,); without any there is only the orbit.
         high: upper bounds (k,).
         targets: "climb_rate" and perhaps "speed", m/s; as many as parameters.
@@ -54,7 +49,7 @@ class CollocatedTrim:
 
     def __init__(
         self,
-        model_at: Callable[[FloatArray], WingModel],
+        model_at: KeptModels,
         low: FloatArray,
         high: FloatArray,
         targets: Mapping[str, float],
@@ -62,8 +57,7 @@ class CollocatedTrim:
     ) -> None:
         self._model_at, self._low, self._width = model_at, low, high - low
         self._targets, self.nodes = targets, nodes
-        self._models: dict[tuple[float, ...], WingModel] = {}
-        self._equations: dict[tuple[float, ...], Equations] = {}
+        self._equations: dict[tuple[float, ...], CollocationEquations] = {}
         self.by_state: FloatArray = np.empty(0)
         """Derivatives (N, n, n) of the scaled rates at the last Jacobian."""
         self.by_share: FloatArray = np.empty(0)
@@ -71,15 +65,12 @@ class CollocatedTrim:
 
     def with_nodes(self, nodes: int) -> CollocatedTrim:
         """The same system on other nodes."""
-        other = CollocatedTrim(
-            self._model_at, self._low, self._low + self._width, self._targets, nodes
-        )
-        other._models = self._models
-        return other
+        high = self._low + self._width
+        return CollocatedTrim(self._model_at, self._low, high, self._targets, nodes)
 
     def pack(self, path: FloatArray, point: FloatArray) -> FloatArray:
         """Unknowns of states (K, n) at K even instants, K odd, and parameters (k,)."""
-        scaled = path / self._model(point).state_scale
+        scaled = path / self._model_at(point).state_scale
         shares = (point - self._low) / self._width
         return np.concatenate([resampled(scaled, self.nodes).ravel(), shares])
 
@@ -91,17 +82,17 @@ class CollocatedTrim:
     def path(self, u: FloatArray) -> FloatArray:
         """States (N, n) at the nodes, in their own units."""
         states, point = self.unpack(u)
-        return states.reshape(self.nodes, -1) * self._model(point).state_scale
+        return states.reshape(self.nodes, -1) * self._model_at(point).state_scale
 
-    def orbit(self, point: FloatArray) -> Equations:
+    def orbit(self, point: FloatArray) -> CollocationEquations:
         """The equations of the orbit alone at parameters (k,)."""
         key = tuple(point.tolist())
         if key not in self._equations:
-            if len(self._equations) >= _MODELS_KEPT:
-                del self._equations[next(iter(self._equations))]
-            model = self._model(point)
+            model = self._model_at(point)
             rhs = RightHandSide(model, model.state_scale)
-            self._equations[key] = Equations(rhs, 0.0, model.bird.period, False, self.nodes)
+            self._equations[key] = CollocationEquations(
+                rhs, 0.0, model.bird.period, False, self.nodes
+            )
         return self._equations[key]
 
     def residual(self, u: FloatArray) -> FloatArray:
@@ -161,7 +152,7 @@ class CollocatedTrim:
     def _means_by_state(self, u: FloatArray) -> FloatArray:
         """Derivatives (k, N n) of the means by the scaled states."""
         x = self.path(u)
-        scale = self._model(self.unpack(u)[1]).state_scale
+        scale = self._model_at(self.unpack(u)[1]).state_scale
         forwards, down, theta = x[:, 0], x[:, 1], x[:, 3]
         c, s = np.cos(theta), np.sin(theta)
         by_state = np.zeros((2, *x.shape))
@@ -173,18 +164,14 @@ class CollocatedTrim:
         rows = {"climb_rate": climb, "speed": along * forward + upwards * climb}
         return np.array([rows[name] for name in self._targets])
 
-    def _model(self, point: FloatArray) -> WingModel:
-        """The model, kept: all numbers of nodes and all differences ask for the same ones."""
-        key = tuple(point.tolist())
-        if key not in self._models:
-            if len(self._models) >= _MODELS_KEPT:
-                del self._models[next(iter(self._models))]
-            self._models[key] = self._model_at(point)
-        return self._models[key]
-
 
 def solve_collocated(
-    equations: CollocatedTrim, path: FloatArray, point: FloatArray, accuracy: float
+    equations: CollocatedTrim,
+    path: FloatArray,
+    point: FloatArray,
+    *,
+    tolerance: float,
+    accuracy: float,
 ) -> tuple[FloatArray, Collocated]:
     """Parameters (k,) and orbit of a trimmed cycle, by Newton's method on as many nodes as needed.
 
@@ -192,6 +179,7 @@ def solve_collocated(
         equations: on the number of nodes to begin with.
         path: states (K, n) at K even instants, K odd, to start from.
         point: parameters (k,) to start from.
+        tolerance: norm of the residual accepted.
         accuracy: largest correction that half as many nodes again may make.
 
     Raises:
@@ -206,8 +194,8 @@ def solve_collocated(
         history.append(replace(iteration, number=len(history)))
         give_up_creeping(history[-1])
 
-    def solved(u: FloatArray, tolerance: float) -> tuple[FloatArray, FloatArray]:
-        found, residual, _ = solve(
+    while True:
+        u, residual, _ = solve(
             equations,
             u,
             damping="line-search",
@@ -215,32 +203,23 @@ def solve_collocated(
             max_iterations=ITERATIONS,
             callback=record,
         )
-        return found, residual
-
-    while True:
-        u, _ = solved(u, _PRELIMINARY * accuracy)
         finer, finer_u, error = _correction(equations, u)
         if error <= accuracy:
             break
         errors.append(error)
         refuse_rough(equations, u, errors, accuracy, _MOST_NODES, history)
         equations, u = finer, finer_u
-    u, residual = solved(u, TOLERANCE)
     states, point = equations.unpack(u)
     orbit = equations.orbit(point)
-    on_finer = orbit.with_nodes(finer.nodes)
-    finer_states, _ = finer.unpack(finer_u)
-    history = history[:1] + [each for each in history[1:] if each.step_length]
-    found = Collocated(
+    return point, Collocated(
         equations=orbit,
         u=states,
         residual=residual[: states.size],
-        finer=on_finer,
-        finer_u=finer_states,
+        finer=finer.orbit(point),
+        finer_u=finer.unpack(finer_u)[0],
         state_error=error,
-        iterations=tuple(replace(each, number=i) for i, each in enumerate(history)),
+        iterations=tuple(history),
     )
-    return point, found
 
 
 def _correction(

@@ -18,8 +18,8 @@ from birdmb.orbits import FloquetResult, NotSmoothError
 from birdmb.orbits.collocation import FIRST_NODES
 from birdmb.orbits.collocation_search import collocated_cycle, guessed_path, nodes_shown
 from birdmb.orbits.problem import HasGuessedPath, HasInitialGuess, HasRates
-from birdmb.orbits.search import ACCURACY
-from birdmb.studies.cycles import ModelFactory, WarmCycles
+from birdmb.orbits.search import ACCURACY, TOLERANCE
+from birdmb.studies.cycles import KeptModels, ModelFactory, WarmCycles
 from birdmb.studies.trim_collocation import CollocatedTrim, solve_collocated
 from birdmb.studies.trim_equations import TrimEquations
 from birdmb.topology import Bird
@@ -69,6 +69,7 @@ class TrimSearch:
         for bound in (self.low, self.high):  # bounds that no bird can have are told at once
             bird.with_values(self.named(bound))
         self._cycle, self._options = WarmCycles(bird, model, options), options
+        self._model_at = KeptModels(self._made_at)
         self.found: dict[tuple[float, ...], Trial] = {}
         self._failures: dict[tuple[float, ...], str] = {}
         self._failure_together = ""
@@ -141,7 +142,11 @@ class TrimSearch:
             path = guessed_path(model, guess, 0.0, model.bird.period, nodes)
         equations = CollocatedTrim(self._model_at, self.low, self.high, self._targets, nodes)
         accuracy = self._options.get("accuracy", ACCURACY)
-        point, found = solve_collocated(equations, path, point, accuracy)
+        # The targets are part of the residual.
+        tolerance = min(self._options.get("tolerance", TOLERANCE), 0.1 * self._tolerance)
+        point, found = solve_collocated(
+            equations, path, point, tolerance=tolerance, accuracy=accuracy
+        )
         return point, cast("FlightCycle", collocated_cycle(found, accuracy))
 
     def _forward_path(self, nodes: int) -> FloatArray:
@@ -153,7 +158,7 @@ class TrimSearch:
             path[:, : len(BODY_STATES)] = state[: len(BODY_STATES)]
         return path
 
-    def _model_at(self, point: FloatArray) -> WingModel:
+    def _made_at(self, point: FloatArray) -> WingModel:
         return cast("WingModel", self._model(self.bird.with_values(self.named(point))))
 
     def forward_flight(self) -> FloatArray:

@@ -34,7 +34,7 @@ def outcome(value):
 
 def whose():
     """What a study of the coarse bird is made of."""
-    return identity(coarse_bird(), QUICK, Search(1e-9, 50, None, "auto", "line-search"), None)
+    return identity(coarse_bird(), QUICK, Search(1e-9, 1e-7, 50, None, "auto", "line-search"), None)
 
 
 GRID = Grid({MASS: (1.1, 1.2, 1.3)})

@@ -51,7 +51,7 @@ def test_neighbours_of_a_flight_that_was_shot_are_shot():
     task = Task(
         bird,
         partial(birdmb.MultibodyModel, steps_per_beat=60),
-        Search(1e-9, 50, None, "auto", "line-search"),
+        Search(1e-9, 1e-7, 50, None, "auto", "line-search"),
         {f"{FLAP}.stiffness": 39.0},
         {},
         None,

@@ -9,10 +9,11 @@ import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass
+from functools import cache
 from typing import Any, cast
 
 import numpy as np
-from threadpoolctl import threadpool_limits
+from threadpoolctl import ThreadpoolController
 
 from birdmb._typing import FloatArray
 from birdmb.errors import BirdmbError, OrbitError, StateError
@@ -126,7 +127,13 @@ def _told(error: BaseException) -> str:
 
 _counting = threading.Lock()
 _computing = 0
-_limits: threadpool_limits | None = None
+_limits: Any = None
+
+
+@cache
+def _libraries() -> ThreadpoolController:
+    """Those of this process; finding them takes longer than a flight may."""
+    return ThreadpoolController()
 
 
 @contextmanager
@@ -140,7 +147,7 @@ def _one_thread() -> Iterator[None]:
     with _counting:
         _computing += 1
         if _computing == 1:
-            _limits = threadpool_limits(1)
+            _limits = _libraries().limit(limits=1)
     try:
         yield
     finally:

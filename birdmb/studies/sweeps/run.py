@@ -13,7 +13,7 @@ from typing import Any
 
 from birdmb.models import MultibodyModel
 from birdmb.orbits.newton import Damping
-from birdmb.orbits.search import SearchMethod
+from birdmb.orbits.search import ACCURACY, TOLERANCE, SearchMethod
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.relevance import check_relevant
 from birdmb.studies.sweeps.checks import check_processes, check_trimming
@@ -54,7 +54,8 @@ def sweep(
     workers: int | None = None,
     model: ModelFactory = MultibodyModel,
     trim: Trimming | None = None,
-    tolerance: float = 1e-9,
+    tolerance: float = TOLERANCE,
+    accuracy: float = ACCURACY,
     max_iterations: int = 50,
     segments: int | None = None,
     method: SearchMethod = "auto",
@@ -83,7 +84,7 @@ def sweep(
             them.
         trim: trims the flight of every point, as to level flight, by parameters that are not
             varied; without it, flights climb and sink as they do.
-        tolerance, max_iterations, segments, method, damping: of each search, as for
+        tolerance, accuracy, max_iterations, segments, method, damping: of each search, as for
             `find_limit_cycle`.
         on_point: called after every point that has been stored, and once before the first of them.
 
@@ -95,7 +96,7 @@ def sweep(
             that is varied or trimmed has no effect on the model.
     """
     grid = Grid.of(bird, vary)
-    search = Search(tolerance, max_iterations, segments, method, damping)
+    search = Search(tolerance, accuracy, max_iterations, segments, method, damping)
     if trim is not None:
         check_trimming(bird, grid, trim)
     check_relevant(bird, {**grid.parameters, **(trim.parameters if trim else {})}, model)

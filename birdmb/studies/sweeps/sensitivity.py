@@ -11,16 +11,18 @@ import numpy as np
 from birdmb._typing import FloatArray
 from birdmb.models import FlightCycle
 from birdmb.models.wing_model import WingModel
-from birdmb.studies.cycles import ModelFactory, path_for_search
+from birdmb.orbits.collocation import fewer_nodes
+from birdmb.studies.cycles import KeptModels, ModelFactory, path_at_nodes
 from birdmb.studies.sweeps.grid import Value
 from birdmb.studies.sweeps.settings import Trimming
 from birdmb.studies.trim_collocation import CollocatedTrim
 from birdmb.studies.trim_equations import TrimEquations
 from birdmb.topology import Bird
 
+_FEWEST_NODES = 11
+
 _Values: TypeAlias = Mapping[str, Value]
 _Residual: TypeAlias = Callable[[_Values], FloatArray]
-_ModelAt: TypeAlias = Callable[[FloatArray], WingModel]
 
 
 def sensitivities(
@@ -58,14 +60,17 @@ def sensitivities(
     point = np.array([trimmed[name] for name in names])
     targets = {} if trimming is None else trimming.targets
 
-    def models(values: _Values) -> _ModelAt:
-        varied = bird.with_values(values)
+    here = values
+
+    def models(values: _Values) -> KeptModels:
 
         def model_at(point: FloatArray) -> WingModel:
             by_name = dict(zip(names, point.tolist(), strict=True))
-            return cast("WingModel", model(varied.with_values(by_name)))
+            if values is here and (by_name == trimmed or not names):
+                return cast("WingModel", cycle.model)
+            return cast("WingModel", model(bird.with_values({**values, **by_name})))
 
-        return model_at
+        return KeptModels(model_at)
 
     n = cycle.x0.size
     if cycle.method == "collocation":
@@ -76,13 +81,13 @@ def sensitivities(
     else:
         residual, matrix = _shooting(cycle, models, values, (low, high), targets, point)
     kept = np.r_[:n, len(matrix) - point.size : len(matrix)]
-    here = residual(values) if cycle.method == "collocation" else 0.0
+    left = residual(values) if cycle.method == "collocation" else 0.0
     found = {}
     for name, step in steps.items():
         # Whatever fails here, such as a step into what is no bird: the flight itself is found.
         with suppress(Exception):
             there = {**values, name: cast("float", values[name]) + step}
-            response = -np.linalg.solve(matrix, (residual(there) - here) / step)[kept]
+            response = -np.linalg.solve(matrix, (residual(there) - left) / step)[kept]
             if np.isfinite(response).all():
                 found[name] = response.tolist()
     return found
@@ -90,7 +95,7 @@ def sensitivities(
 
 def _collocation(
     cycle: FlightCycle,
-    models: Callable[[_Values], _ModelAt],
+    models: Callable[[_Values], KeptModels],
     values: _Values,
     bounds: tuple[FloatArray, FloatArray],
     targets: Mapping[str, float],
@@ -98,19 +103,24 @@ def _collocation(
 ) -> tuple[_Residual, FloatArray]:
     """Residual of orbit and targets with other values, and its Jacobian.
 
-    On the nodes of a first search: what the orbit errs by there is the same with other values.
+    On few nodes: what the orbit errs by there is the same with other values.
     """
-    path = path_for_search(cycle)
+    path = path_at_nodes(cycle, max(_FEWEST_NODES, fewer_nodes(fewer_nodes(cycle.nodes or 1))))
 
     def equations(values: _Values) -> CollocatedTrim:
         return CollocatedTrim(models(values), *bounds, targets, len(path))
 
     at_point = equations(values)
     u = at_point.pack(path, point)
-    return (lambda there: equations(there).residual(u)), at_point.jacobian(u)
+    matrix = at_point.jacobian(u)
+
+    def residual(there: _Values) -> FloatArray:
+        return (at_point if there is values else equations(there)).residual(u)
+
+    return residual, matrix
 
 
-def _closure(cycle: FlightCycle, models: Callable[[_Values], _ModelAt]) -> _Residual:
+def _closure(cycle: FlightCycle, models: Callable[[_Values], KeptModels]) -> _Residual:
     """Gap of the flight's state after a beat, with other values, in units of the state scale."""
 
     def gap(values: _Values) -> FloatArray:
@@ -123,7 +133,7 @@ def _closure(cycle: FlightCycle, models: Callable[[_Values], _ModelAt]) -> _Resi
 
 def _shooting(
     cycle: FlightCycle,
-    models: Callable[[_Values], _ModelAt],
+    models: Callable[[_Values], KeptModels],
     values: _Values,
     bounds: tuple[FloatArray, FloatArray],
     targets: Mapping[str, float],

@@ -10,6 +10,7 @@ from importlib.metadata import version
 from typing import Any, get_args
 
 from birdmb.orbits import ArgumentError
+from birdmb.orbits.errors import require_tolerance
 from birdmb.orbits.newton import Damping
 from birdmb.orbits.search import SearchMethod
 from birdmb.studies.cycles import ModelFactory
@@ -24,6 +25,7 @@ class Search:
     """How limit cycles are searched for; see `find_limit_cycle`."""
 
     tolerance: float
+    accuracy: float
     max_iterations: int
     segments: int | None
     method: SearchMethod
@@ -35,8 +37,8 @@ class Search:
             if getattr(self, name) not in get_args(choices):
                 choice = " or ".join(f'"{each}"' for each in get_args(choices))
                 raise ArgumentError(f'{name} must be {choice}, not "{getattr(self, name)}".')
-        if not 0.0 < self.tolerance < math.inf:
-            raise ArgumentError(f"tolerance must be positive and finite, not {self.tolerance}.")
+        require_tolerance("tolerance", self.tolerance)
+        require_tolerance("accuracy", self.accuracy)
         for name in ("max_iterations", "segments"):
             number = getattr(self, name)
             if number is not None and number < 1:
