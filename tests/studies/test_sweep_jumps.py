@@ -31,7 +31,8 @@ class Derailed(Inline):
         if task.values[MASS] == self._mass and task.guess is not None:
             model = task.model(task.bird.with_values(task.values))
             falling = birdmb.find_limit_cycle(model, list(FALLING.values()))
-            guess = Guess(task.guess.place, described(falling) | {"trimmed": {}})
+            flight = described(falling) | {"trimmed": {}, "sensitivity": {}}
+            guess = Guess(task.guess.place, task.guess.values, flight)
             task = replace(task, guess=guess)
         return super().submit(function, task)
 

@@ -58,7 +58,7 @@ def test_neighbours_of_a_flight_that_was_shot_are_shot():
         None,
     )
     shot = compute(replace(task, search=replace(task.search, method="shooting"))).result
-    guess = Guess("[0]", shot)
+    guess = Guess("[0]", {f"{FLAP}.stiffness": 40.0}, shot)
     near = compute(replace(task, guess=guess))
     assert near.start == "[0]"
     assert near.result["method"] == "shooting"

@@ -18,10 +18,10 @@ from birdmb.studies.sweeps.grid import Grid, parent
 from birdmb.studies.sweeps.point import (
     KEPT_FOR_NEIGHBOURS,
     Outcome,
-    _one_thread,
     described,
 )
 from birdmb.studies.sweeps.run import _Filling
+from birdmb.studies.sweeps.threads import one_thread
 from birdmb.studies.sweeps.verdicts import verdict_lines
 
 from .sweeping import AMPLITUDE, GRID, IMPOSSIBLE, MASS, QUICK, Inline, coarse_bird
@@ -332,8 +332,8 @@ def test_threads_lift_the_limit_on_linear_algebra_once_the_last_has_ended():
         return [each["num_threads"] for each in threadpool_info() if each["user_api"] == "blas"]
 
     before = threads()
-    with _one_thread():
-        with _one_thread():
+    with one_thread():
+        with one_thread():
             assert set(threads()) <= {1}
         assert set(threads()) <= {1}
     assert threads() == before

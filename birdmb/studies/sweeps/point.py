@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import math
 import textwrap
-import threading
 import time
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import asdict, dataclass
-from functools import cache
 from typing import Any, cast
 
 import numpy as np
-from threadpoolctl import ThreadpoolController
 
 from birdmb._typing import FloatArray
 from birdmb.errors import BirdmbError, OrbitError, StateError
@@ -26,12 +23,16 @@ from birdmb.studies.cycles import ModelFactory, path_for_search, shot_near
 from birdmb.studies.sweeps.grid import Value
 from birdmb.studies.sweeps.sensitivity import sensitivities
 from birdmb.studies.sweeps.settings import Search, Trimming
+from birdmb.studies.sweeps.sheets import on_sheet
+from birdmb.studies.sweeps.threads import one_thread
 from birdmb.studies.trim import TrimGuess, trim_flight
 from birdmb.studies.validity import assess_validity
 from birdmb.topology import Bird
 
 COLD = "cold"
-KEPT_FOR_NEIGHBOURS = ("x0", "monodromy", "trimmed", "method", "orbit", "state_scale")
+KEPT_FOR_NEIGHBOURS = (
+    *("x0", "monodromy", "trimmed", "method", "orbit", "state_scale", "sensitivity"),
+)
 _DIGITS = 6  # after the point, of states in units of their scale
 _LONGEST_REASON = 600  # characters; foreign errors may bring a traceback
 
@@ -42,10 +43,12 @@ class Guess:
 
     Attributes:
         place: the neighbour's, as the store writes it.
+        values: of the parameters there, by name.
         flight: what the store keeps of it, as `described`, by the names KEPT_FOR_NEIGHBOURS.
     """
 
     place: str
+    values: Mapping[str, Value]
     flight: Mapping[str, Any]
 
     @property
@@ -72,6 +75,7 @@ class Task:
     steps: Mapping[str, float]
     guess: Guess | None
     trimming: Trimming | None
+    keep_to_sheet: bool = False
 
 
 @dataclass(frozen=True)
@@ -101,16 +105,8 @@ def compute(task: Task) -> Outcome:
     began = time.perf_counter()
     start, result, reason = COLD, None, ""
     try:
-        with _one_thread():
-            if task.trimming is None:
-                cycle, start = _found(task)
-                trimmed = dict[str, float]()
-            else:
-                cycle, trimmed, start = _trimmed(task, task.trimming)
-            result = described(cycle) | {"trimmed": trimmed}
-            result["sensitivity"] = sensitivities(
-                cycle, task.bird, task.model, task.values, task.steps, task.trimming, trimmed
-            )
+        with one_thread():
+            result, start = on_sheet(task, _flight) if task.keep_to_sheet else _flight(task)
     except KeyboardInterrupt:
         raise
     except BaseException as error:
@@ -118,44 +114,25 @@ def compute(task: Task) -> Outcome:
     return Outcome(result, reason, start, time.perf_counter() - began)
 
 
+def _flight(task: Task) -> tuple[dict[str, Any], str]:
+    """What is kept of the flight of a task, and where the search for it succeeded from."""
+    if task.trimming is None:
+        cycle, start = _found(task)
+        trimmed = dict[str, float]()
+    else:
+        cycle, trimmed, start = _trimmed(task, task.trimming)
+    result = described(cycle) | {"trimmed": trimmed}
+    result["sensitivity"] = sensitivities(
+        cycle, task.bird, task.model, task.values, task.steps, task.trimming, trimmed
+    )
+    return result, start
+
+
 def _told(error: BaseException) -> str:
     text = textwrap.shorten(str(error), _LONGEST_REASON, placeholder=" ...")
     if isinstance(error, BirdmbError) and text:
         return text
     return f"{type(error).__name__}: {text}" if text else type(error).__name__
-
-
-_counting = threading.Lock()
-_computing = 0
-_limits: Any = None
-
-
-@cache
-def _libraries() -> ThreadpoolController:
-    """Those of this process; finding them takes longer than a flight may."""
-    return ThreadpoolController()
-
-
-@contextmanager
-def _one_thread() -> Iterator[None]:
-    """One thread of linear algebra within: how many share a sum decides its last bits.
-
-    The limit is the whole process's. Where threads compute points side by side, the first one that
-    begins sets it and the last one that ends lifts it.
-    """
-    global _computing, _limits  # noqa: PLW0603 - the limit that they count is global, too
-    with _counting:
-        _computing += 1
-        if _computing == 1:
-            _limits = _libraries().limit(limits=1)
-    try:
-        yield
-    finally:
-        with _counting:
-            _computing -= 1
-            if _computing == 0 and _limits is not None:
-                _limits.restore_original_limits()
-                _limits = None
 
 
 def prepare(bird: Bird, model: ModelFactory) -> None:

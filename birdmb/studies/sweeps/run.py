@@ -60,6 +60,7 @@ def sweep(
     segments: int | None = None,
     method: SearchMethod = "auto",
     damping: Damping = "line-search",
+    keep_to_sheet: bool = False,
     on_point: Callable[[Finished], None] | None = None,
 ) -> Study:
     """Find the limit cycles at all combinations of some parameters' values, in parallel.
@@ -86,6 +87,9 @@ def sweep(
             varied; without it, flights climb and sink as they do.
         tolerance, accuracy, max_iterations, segments, method, damping: of each search, as for
             `find_limit_cycle`.
+        keep_to_sheet: where a flight is not on the sheet of its neighbour's (see `sheet_jump` of
+            `Study.to_xarray`), or none is found, follow the neighbour's by smaller steps of the
+            parameters; where its sheet ends, the point has failed.
         on_point: called after every point that has been stored, and once before the first of them.
 
     Raises:
@@ -102,8 +106,9 @@ def sweep(
     check_relevant(bird, {**grid.parameters, **(trim.parameters if trim else {})}, model)
     if executor is None:
         check_processes(bird, model, workers)
-    with Store.opened(store, identity(bird, model, search, trim), grid) as opened:
-        filling = _Filling(bird, model, search, trim, grid, opened, on_point)
+    made_of = identity(bird, model, search, trim, keep_to_sheet=keep_to_sheet)
+    with Store.opened(store, made_of, grid) as opened:
+        filling = _Filling(bird, model, search, trim, grid, opened, on_point, keep_to_sheet)
         if filling.missing:
             filling.run(executor, workers)
     return Study.open(store)
@@ -121,7 +126,9 @@ class _Filling:
         grid: Grid,
         store: Store,
         on_point: Callable[[Finished], None] | None,
+        keep_to_sheet: bool = False,
     ) -> None:
+        self._keep_to_sheet = keep_to_sheet
         self._bird, self._model = bird, model
         self._search, self._trimming = search, trimming
         self._grid, self._store, self._on_point = grid, store, on_point
@@ -174,6 +181,7 @@ class _Filling:
             steps=self._grid.steps(place),
             guess=self._guess(place),
             trimming=self._trimming,
+            keep_to_sheet=self._keep_to_sheet,
         )
 
     def _guess(self, place: Place) -> Guess | None:
@@ -182,7 +190,8 @@ class _Filling:
             return None
         result = self._points[before].result
         assert result is not None
-        return Guess(place_text(before), {name: result[name] for name in KEPT_FOR_NEIGHBOURS})
+        kept = {name: result[name] for name in KEPT_FOR_NEIGHBOURS}
+        return Guess(place_text(before), self._grid.values(before), kept)
 
     def _nearest_flight(self, place: Place | None) -> Place | None:
         """The place, or the first of its predecessors that has a flight.

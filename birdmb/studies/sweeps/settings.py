@@ -92,7 +92,12 @@ class Trimming:
 
 
 def identity(
-    bird: Bird, model: ModelFactory, search: Search, trimming: Trimming | None
+    bird: Bird,
+    model: ModelFactory,
+    search: Search,
+    trimming: Trimming | None,
+    *,
+    keep_to_sheet: bool = False,
 ) -> dict[str, Any]:
     """Everything that results depend on besides the grid, fit for JSON.
 
@@ -105,6 +110,7 @@ def identity(
         "model": model_name(model),
         "search": asdict(search),
         "trim": None if trimming is None else asdict(trimming),
+        "keep_to_sheet": keep_to_sheet,
     }
 
 
@@ -136,7 +142,8 @@ def difference(stored: Mapping[str, Any], asked: Mapping[str, Any]) -> str | Non
 
     "There" is the store.
     """
-    for key, what in (("birdmb", "the version of birdmb"), ("model", "the model")):
+    wholes = ("birdmb", "the version of birdmb"), ("model", "the model")
+    for key, what in (*wholes, ("keep_to_sheet", "keep_to_sheet")):
         if stored[key] != asked[key]:
             return _apart(what, stored[key], asked[key])
     if stored["trim"] != asked["trim"]:
