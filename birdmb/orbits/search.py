@@ -143,6 +143,8 @@ def find_limit_cycle(
             if method == "collocation" or nodes is not None:
                 raise
             reason = f"collocation failed: {error}"
+            if not (guess is None or isinstance(guess, FloquetResult)) and np.ndim(guess) == 2:
+                start = np.asarray(guess, float)[0]
             if isinstance(error, NotSmoothError):
                 reason = str(error).partition(" Take method=")[0]
                 if error.residual < _NEAR:

@@ -16,7 +16,7 @@ from birdmb._typing import FloatArray
 from birdmb.errors import BirdmbError, OrbitError, StateError
 from birdmb.models import FlightCycle
 from birdmb.models.wing_model import WingModel
-from birdmb.orbits import Model, find_limit_cycle
+from birdmb.orbits import Model, NotSmoothError, find_limit_cycle
 from birdmb.orbits.collocation import FIRST_NODES
 from birdmb.orbits.problem import HasGuessedPath, HasInitialGuess, HasRates
 from birdmb.studies.cycles import ModelFactory, path_for_search, shot_near
@@ -151,18 +151,36 @@ def _found(task: Task) -> tuple[FlightCycle, str]:
     search = asdict(task.search)
     guess = task.guess
     # A varied mode of a joint may have given the neighbour other states.
-    if guess is not None and guess.state_names == model.state_names:
+    if guess is None or guess.state_names != model.state_names:
+        return cast("FlightCycle", find_limit_cycle(model, **search)), COLD
+    if guess.flight["method"] == "collocation":
+        with suppress(NotSmoothError):
+            return _collocated_near(model, guess, search)
+    else:
         with suppress(OrbitError, StateError):
-            return _found_near(model, guess, search), guess.place
+            # Of several segments only the product is kept.
+            known = [guess.flight["monodromy"]] if search["segments"] in {None, 1} else None
+            found = shot_near(model, guess.orbit, known, search)
+            return cast("FlightCycle", found), guess.place
     return cast("FlightCycle", find_limit_cycle(model, **search)), COLD
 
 
-def _found_near(model: Model, guess: Guess, search: Mapping[str, Any]) -> FlightCycle:
-    if guess.flight["method"] == "collocation":
-        return cast("FlightCycle", find_limit_cycle(model, guess.orbit, **search))
-    # Of several segments only the product is kept.
-    known = [guess.flight["monodromy"]] if search["segments"] in {None, 1} else None
-    return cast("FlightCycle", shot_near(model, guess.orbit, known, search))
+def _collocated_near(
+    model: Model, guess: Guess, search: Mapping[str, Any]
+) -> tuple[FlightCycle, str]:
+    """The cycle of a model by collocation alone, and what it was found from.
+
+    Beside a smooth orbit there is none that only shooting would find, and its vain search takes a
+    hundred times as long.
+    """
+    collocation = {**search, "method": "collocation"}
+    try:
+        found, start = find_limit_cycle(model, guess.orbit, **collocation), guess.place
+    except NotSmoothError:
+        raise
+    except (OrbitError, StateError):
+        found, start = find_limit_cycle(model, **collocation), COLD
+    return cast("FlightCycle", found), start
 
 
 def _trimmed(task: Task, trimming: Trimming) -> tuple[FlightCycle, dict[str, float], str]:
