@@ -1,10 +1,10 @@
 """What a point of a sweep costs, and how much faster two workers are than one.
 
-`python benchmarks/sweep.py [--coarse] [--point]`: flows and processor seconds of warm-started
-points of the bird with a compliant shoulder, one by one in this process; then, unless `--point` is
-given, a sweep of 40 points with one worker and with two, start of the workers included. Takes some
-minutes, with `--coarse` (8 elements a wing, 60 steps a beat) less than one. The sweep needs a
-machine with nothing else to do.
+`python benchmarks/sweep.py [--coarse] [--point]`: evaluations of the right-hand side and
+processor time of warm-started points of the bird with a compliant shoulder, one by one in this
+process; then, unless `--point` is given, a sweep of 40 points with one worker and with two, start
+of the workers included; `--coarse`: with 8 elements a wing. The sweep needs a machine with nothing
+else to do.
 """
 
 import os
@@ -44,7 +44,7 @@ def prepared(
     bird = birdmb.load_bird(COMPLIANT)
     if not coarse:
         return bird, partial(kind)
-    return bird.with_values({"wing.discretisation": 8}), partial(kind, steps_per_beat=60)
+    return bird.with_values({"wing.discretisation": 8}), partial(kind)
 
 
 def timed(workers: int, coarse: bool, directory: Path) -> tuple[float, birdmb.Study]:
@@ -58,14 +58,14 @@ def timed(workers: int, coarse: bool, directory: Path) -> tuple[float, birdmb.St
 
 
 class Counting(birdmb.MultibodyModel):
-    """The multibody model, counting its flows."""
+    """The multibody model, counting at how many instants its right-hand side was evaluated."""
 
-    flows = 0
+    instants = 0
 
-    def flow(self, *arguments: Any) -> np.ndarray:
+    def rates(self, times: np.ndarray, states: np.ndarray) -> np.ndarray:
         """As the multibody model's."""
-        type(self).flows += 1
-        return super().flow(*arguments)
+        type(self).instants += len(times)
+        return super().rates(times, states)
 
 
 class Timed(Executor):
@@ -77,10 +77,10 @@ class Timed(Executor):
 
     def submit(self, function: Any, task: Task, /) -> Future[Outcome]:
         """Compute at once."""
-        flows, began = Counting.flows, time.process_time()
+        instants, began = Counting.instants, time.process_time()
         outcome = function(task)
         seconds = time.process_time() - began
-        self.costs.append((task, outcome, Counting.flows - flows, seconds))
+        self.costs.append((task, outcome, Counting.instants - instants, seconds))
         future: Future[Outcome] = Future()
         future.set_result(outcome)
         return future
@@ -90,13 +90,15 @@ def points(coarse: bool, directory: Path) -> Table:
     """Cost of each of a row of warm points."""
     (bird, model), executor = prepared(coarse, Counting), Timed()
     birdmb.sweep(bird, ROW, store=directory / "row.db", executor=executor, model=model)
-    table = Table("stiffness, damping", "flows", "processor time", "per flow")
+    table = Table("stiffness, damping", "instants", "nodes", "processor time")
     warm = [cost for cost in executor.costs if cost[1].start != "cold"]
-    for task, _, flows, seconds in warm:
+    for task, outcome, instants, seconds in warm:
+        assert outcome.result is not None
         values = ", ".join(f"{value:g}" for value in task.values.values())
-        table.add_row(values, str(flows), f"{seconds:.2f} s", f"{1e3 * seconds / flows:.0f} ms")
-    flows, seconds = np.median([cost[2:] for cost in warm], axis=0)
-    table.add_row("median", f"{flows:.0f}", f"{seconds:.2f} s", "", style="bold")
+        nodes = str(outcome.result["nodes"])
+        table.add_row(values, str(instants), nodes, f"{1e3 * seconds:.0f} ms")
+    instants, seconds = np.median([cost[2:] for cost in warm], axis=0)
+    table.add_row("median", f"{instants:.0f}", "", f"{1e3 * seconds:.0f} ms", style="bold")
     return table
 
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from birdmb._kernels import kernel
-from birdmb._typing import BoolArray, FloatArray
+from birdmb._typing import FloatArray
 from birdmb.aerodynamics.airframe import Airframe, airframe_loads
 from birdmb.aerodynamics.circulation import section_flow
 from birdmb.aerodynamics.elements import (
@@ -21,7 +21,7 @@ from birdmb.aerodynamics.elements import (
 )
 from birdmb.aerodynamics.tail import TailSurface, tail_influence
 from birdmb.wing.arrays import WingArrays
-from birdmb.wing.stacked import StackedShapes, shape_at, wing_shapes
+from birdmb.wing.stacked import StackedShapes, every_second_shape, shape_at, wing_shapes
 
 
 class PrescribedWing(NamedTuple):
@@ -30,8 +30,7 @@ class PrescribedWing(NamedTuple):
     elements: Elements
     inverse: FloatArray  # (P, N, N) of the circulation's linear system
     at_tail: FloatArray  # (P, 2, N) 1/m, velocity along x and z at the tail by the circulations
-    beyond: FloatArray  # (P, N, 2), as in `WingShape`
-    converged: BoolArray  # (P,) as in `WingShape`
+    shapes: StackedShapes  # that the elements were placed by
     clearance: FloatArray  # (P,) m, see `elements.clearance`; NaN also where not converged
 
 
@@ -99,7 +98,7 @@ def _tabulated(shapes: StackedShapes, root: FloatArray, tail: TailSurface) -> Pr
         induced_y,
         induced_z,
     )
-    return PrescribedWing(elements, inverse, at_tail, shapes.beyond, shapes.converged, clearances)
+    return PrescribedWing(elements, inverse, at_tail, shapes, clearances)
 
 
 def every_second(wing: PrescribedWing) -> PrescribedWing:
@@ -108,8 +107,7 @@ def every_second(wing: PrescribedWing) -> PrescribedWing:
         Elements(*(array[::2].copy() for array in wing.elements)),
         wing.inverse[::2].copy(),
         wing.at_tail[::2].copy(),
-        wing.beyond[::2].copy(),
-        wing.converged[::2].copy(),
+        every_second_shape(wing.shapes),
         wing.clearance[::2].copy(),
     )
 

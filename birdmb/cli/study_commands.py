@@ -74,6 +74,14 @@ def sweep(
         int, typer.Option(min=1, metavar="N", help="Iterations allowed at a point.")
     ] = 50,
     steps_per_beat: StepsPerBeat = None,
+    keep_to_sheet: Annotated[
+        bool,
+        typer.Option(
+            "--keep-to-sheet",
+            help="Follow the flight of the neighbour by smaller steps where the flight found is "
+            "on another sheet; where that sheet ends, the point has failed.",
+        ),
+    ] = False,
 ) -> None:
     """Find the limit cycles over a grid of values, in parallel; a run that was stopped goes on.
 
@@ -108,6 +116,7 @@ def sweep(
                 "segments": segments,
                 "tolerance": tolerance,
                 "max_iterations": max_iterations,
+                "keep_to_sheet": keep_to_sheet,
             },
         )
 

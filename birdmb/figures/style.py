@@ -41,8 +41,9 @@ def symbol(name: str) -> str:
 def stroke_speed(cycle: FlightCycle) -> FloatArray:
     """Speed (K,) m/s at which the wings go down relative to the body, averaged over their area."""
     beat = cycle.beat
-    areas = np.array([loads.chord * loads.width for loads in beat.loads])
-    downwards = np.array([loads.velocity[:, 2] for loads in beat.loads])
+    loads = beat.loads_along.stack
+    areas = loads.chord * loads.width
+    downwards = loads.velocity[:, :, 2]
     return np.asarray((areas * downwards).sum(axis=1) / areas.sum(axis=1))
 
 

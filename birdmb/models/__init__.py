@@ -1,8 +1,9 @@
 """Models of a bird in flight: each turns a bird into a flow of named states."""
 
+from birdmb.models.beat import Beat
 from birdmb.models.energy import Work
 from birdmb.models.flight import Flight
-from birdmb.models.flight_cycle import Beat, FlightCycle
+from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.gusts import CosineGust, GaussianGust, Gust, StepGust
 from birdmb.models.loads import Loads, TailLoads
 from birdmb.models.multibody import MultibodyModel, TetheredModel

@@ -1,18 +1,13 @@
-"""Work done by joints, apart by sign, and energy lost to the air."""
+"""Work done by joints, apart by sign."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
 from birdmb._typing import FloatArray
-
-if TYPE_CHECKING:
-    from birdmb.models.loads import Loads
-
-DISSIPATORS = ("lift", "profile", "tail", "body")
 
 
 class Work(NamedTuple):
@@ -40,21 +35,3 @@ def work_by_sign(times: FloatArray, power: FloatArray) -> Work:
     ends = np.unique(np.concatenate([times[[0, -1]], zeros[np.isfinite(zeros)]]))
     parts = np.diff(spline.antiderivative()(ends)) / (times[-1] - times[0])
     return Work(float(parts[parts > 0].sum()), float(parts[parts < 0].sum()))
-
-
-def dissipation(loads: Loads, u: float, w: float, q: float) -> dict[str, float]:
-    """Power (W) that each load takes from a bird that moves at u, w (m/s), q (rad/s) in still air.
-
-    "lift" is that of the lifting line, which is its induced drag; "profile" the drag of the wing's
-    sections; "tail" and "body" all of theirs. Minus force times velocity of the point it acts at.
-    """
-    x, z = loads.position[:, 0], loads.position[:, 2]
-    velocity = loads.velocity + np.column_stack([u + q * z, np.zeros_like(x), w - q * x])
-    profile = -2.0 * float(np.sum(loads.profile_drag * velocity))
-    wing = -2.0 * float(np.sum(loads.element_force * velocity))
-    tail = 0.0
-    if loads.tail is not None:
-        (fx, _, fz), (tx, _, tz) = loads.tail.force, loads.tail.position
-        tail = -float(fx * (u + q * tz) + fz * (w - q * tx))
-    body = -float(loads.body_drag[0] * u + loads.body_drag[2] * w)
-    return dict(zip(DISSIPATORS, (wing - profile, profile, tail, body), strict=True))

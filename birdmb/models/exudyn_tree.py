@@ -11,6 +11,7 @@ import inspect
 import weakref
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Any, TypeVar, cast
 
 import exudyn as exu
@@ -74,6 +75,12 @@ def _steiner(mass: float, r: FloatArray) -> FloatArray:
 
 def _axis_frame(axis: FloatArray) -> FloatArray:
     """Rotation matrix that takes the z axis to `axis`."""
+    return _frame_of(tuple(axis.tolist())).copy()
+
+
+@lru_cache(maxsize=256)
+def _frame_of(axis: tuple[float, ...]) -> FloatArray:
+    # Models are made by the thousand, with joints about few axes: this would be most of it.
     rotation, _ = Rotation.align_vectors([axis], [[0.0, 0.0, 1.0]])
     return np.asarray(rotation.as_matrix())
 

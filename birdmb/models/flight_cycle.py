@@ -10,9 +10,10 @@ from matplotlib.figure import Figure
 
 from birdmb import figures
 from birdmb._typing import FloatArray
-from birdmb.aerodynamics.prescribed import driven
-from birdmb.models.energy import DISSIPATORS, Work, dissipation, work_by_sign
-from birdmb.models.loads import Loads
+from birdmb.aerodynamics.prescribed import driven_at
+from birdmb.models.beat import Beat
+from birdmb.models.energy import Work, work_by_sign
+from birdmb.models.loads import DISSIPATORS
 from birdmb.models.stepped_cycle import SteppedCycle
 from birdmb.models.wing_model import STEPS_PER_BEAT
 
@@ -21,70 +22,6 @@ _LARGEST_IMBALANCE = 0.01
 _LARGEST_INTEGRATION_ERROR = 0.01
 # Loads are of higher degree in the states than one.
 _INSTANTS_PER_NODE = 2
-
-
-@dataclass(frozen=True)
-class Beat:
-    """One wingbeat of a limit cycle at K equidistant times, the first repeated at the end."""
-
-    times: FloatArray
-    """(K,) s."""
-    states: FloatArray
-    """(K, n)."""
-    loads: tuple[Loads, ...]
-    """K entries."""
-    joint_rates: FloatArray
-    """(K, A) rad/s, of the joints and the feathers' hinges."""
-    actuator_torques: FloatArray
-    """(K, A) N m, that actuator, or spring and damper, put on each joint and hinge of one wing."""
-    driver_rates: FloatArray
-    """(K, A) rad/s, of the joints' drivers; 0 of hinges."""
-
-    @cached_property
-    def force(self) -> FloatArray:
-        """Resultant of the air (K, 3) N, body axes."""
-        return np.array([loads.force for loads in self.loads])
-
-    @cached_property
-    def moment(self) -> FloatArray:
-        """Moment of the air about G (K, 3) N m, body axes."""
-        return np.array([loads.moment for loads in self.loads])
-
-    @cached_property
-    def wing_power(self) -> FloatArray:
-        """Power (K,) W that the wings' motion against the air takes."""
-        return np.array([loads.power for loads in self.loads])
-
-    @cached_property
-    def joint_power(self) -> FloatArray:
-        """Power (K, A) W into each pair of joints or hinges, left and right together."""
-        return 2.0 * self.actuator_torques * self.joint_rates
-
-    @cached_property
-    def air_power(self) -> FloatArray:
-        """Power (K,) W of the air on the whole bird: on the body and about the joints."""
-        u, w, q = self.states[:, 0], self.states[:, 1], self.states[:, 2]
-        on_body = self.force[:, 0] * u + self.force[:, 2] * w + self.moment[:, 1] * q
-        about_joints = np.array([loads.joint_torques for loads in self.loads]) * self.joint_rates
-        return np.asarray(on_body + 2.0 * about_joints.sum(axis=1))
-
-    @cached_property
-    def driver_power(self) -> FloatArray:
-        """Power (K, A) W of the drivers of each pair of joints; 0 of hinges."""
-        return 2.0 * self.actuator_torques * self.driver_rates
-
-    @cached_property
-    def dissipation(self) -> FloatArray:
-        """Power (K, 4) W lost to the air by lift, profile drag, tail and body."""
-        bodies = self.states[:, :3]
-        lost = [dissipation(at, *body) for at, body in zip(self.loads, bodies, strict=True)]
-        return np.array([[each[name] for name in DISSIPATORS] for each in lost])
-
-    @cached_property
-    def tail_angle(self) -> FloatArray:
-        """Angle of attack (K,) rad of the tail; NaN where there is none."""
-        tails = [loads.tail for loads in self.loads]
-        return np.array([np.nan if tail is None else tail.angle_of_attack for tail in tails])
 
 
 def world_velocity(states: FloatArray) -> FloatArray:
@@ -111,14 +48,17 @@ class FlightCycle(SteppedCycle):
         """The beat, at the steps of the model's integration or finer than a collocated one."""
         model = self._bird_model
         times, states = self._states_of_beat
-        at = list(zip(times, states, strict=True))
+        loads = model.loads_along(times[:-1], states[:-1])
+        torques = model.actuator_torques_along(times[:-1], states[:-1], loads)
+        # The end is the beginning, to the orbit's closure.
+        ends = np.append(np.arange(times.size - 1), 0)
         return Beat(
             times=times,
             states=states,
-            loads=tuple(model.loads(t, x) for t, x in at),
-            joint_rates=np.array([model.joint_motion(t, x)[1] for t, x in at]),
-            actuator_torques=np.array([model.actuator_torques(t, x) for t, x in at]),
-            driver_rates=np.array([driven(model.wing, t)[1] for t in times]),
+            loads_along=loads.taken(ends),
+            joint_rates=model.joint_motion_along(times, states)[1],
+            actuator_torques=torques[ends],
+            driver_rates=driven_at(model.wing, times)[1],
         )
 
     @cached_property
@@ -128,7 +68,7 @@ class FlightCycle(SteppedCycle):
             steps = self._bird_model.steps_per_beat
         else:
             steps = max(STEPS_PER_BEAT, _INSTANTS_PER_NODE * self.nodes)
-        times = self.start_time + np.linspace(0.0, self.period, steps + 1)
+        times = self.start_time + self.period * np.arange(steps + 1) / steps
         return times, self.trajectory(times).states
 
     @cached_property
@@ -240,8 +180,7 @@ class FlightCycle(SteppedCycle):
         The loads act on the bones, but the lifting line also moves relative to them, with the
         feathers that fan out; `power` counts that motion, torque times rate does not.
         """
-        torques = np.array([loads.joint_torques for loads in self.beat.loads])
-        by_joints = -2.0 * (torques * self.beat.joint_rates).sum(axis=1)
+        by_joints = -2.0 * (self.beat.air_torques * self.beat.joint_rates).sum(axis=1)
         return float(_mean(self.beat.wing_power - by_joints))
 
     @property
@@ -360,7 +299,7 @@ class FlightCycle(SteppedCycle):
         return xr.merge([super().to_xarray(), flight], combine_attrs="no_conflicts")
 
     def _stacked(self, name: str) -> FloatArray:
-        return np.array([getattr(loads, name) for loads in self.beat.loads])
+        return np.asarray(getattr(self.beat.loads_along.stack, name))
 
     def plot(self) -> Figure:
         """Draw states, loads and power over a beat, the multipliers and the wing at four phases."""

@@ -1,15 +1,20 @@
 """Aerodynamic loads as users see them."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from birdmb._typing import FloatArray
-from birdmb.aerodynamics.airframe import Airframe, tail_wind
-from birdmb.aerodynamics.body_drag import body_drag_force
-from birdmb.aerodynamics.circulation import ElementLoads
-from birdmb.aerodynamics.elements import Elements
-from birdmb.aerodynamics.tail import tail_angle, tail_force, tail_influence
+from birdmb._typing import FloatArray, IntArray
+from birdmb.aerodynamics.airframe import Airframe
+from birdmb.models.loads_kernel import StackedLoads
+
+DISSIPATORS = ("lift", "profile", "tail", "body")
+_SHARED = (
+    *("force", "moment", "body_drag", "joint_torques", "position", "node", "velocity"),
+    *("chord", "width", "element_force", "profile_drag", "circulation"),
+    *("angle_of_attack", "speed"),
+)
 
 
 @dataclass(frozen=True)
@@ -68,57 +73,55 @@ class Loads:
     """(N,) m/s, of the wind in the section's plane."""
 
 
-def assemble_loads(
-    elements: Elements,
-    loads: ElementLoads,
-    joint_torques: FloatArray,
-    frame: Airframe,
-    motion: tuple[float, float, float],
-) -> Loads:
-    """Sum up wings, tail and body; the sideways force and the roll and yaw moments cancel.
+class LoadsAlong:
+    """Loads of the air on a bird at K instants.
 
-    `motion` is the body's velocity u, w (m/s) through the air and its pitch rate q (rad/s).
+    Args:
+        stack: the loads, each array stacked along a first axis.
+        frame: constants of the air, tail and body.
     """
-    force = 2.0 * loads.force.sum(axis=0) * np.array([1.0, 0.0, 1.0])
-    moment = 2.0 * np.cross(elements.position, loads.force).sum(axis=0) * np.array([0.0, 1.0, 0.0])
-    tail = _tail_loads(elements, loads, frame, motion)
-    if tail is not None:
-        force = force + tail.force
-        moment = moment + np.cross(tail.position, tail.force)
-    drag_x, drag_z = body_drag_force(frame.body, *motion[:2])[:, 0]
-    body_drag = np.array([drag_x, 0.0, drag_z])
-    return Loads(
-        force=force + body_drag,
-        moment=moment,
-        tail=tail,
-        body_drag=body_drag,
-        power=float(-2.0 * np.sum(loads.force * elements.velocity)),
-        joint_torques=joint_torques,
-        position=elements.position,
-        node=elements.node,
-        velocity=elements.velocity,
-        chord=elements.chord,
-        width=elements.width,
-        element_force=loads.force,
-        profile_drag=loads.profile_drag,
-        circulation=loads.circulation,
-        angle_of_attack=loads.angle_of_attack,
-        speed=loads.speed,
-    )
 
+    def __init__(self, stack: StackedLoads, frame: Airframe) -> None:
+        self.stack, self._frame = stack, frame
 
-def _tail_loads(
-    elements: Elements, loads: ElementLoads, frame: Airframe, motion: tuple[float, float, float]
-) -> TailLoads | None:
-    tail = frame.tail
-    if tail.span == 0.0:
-        return None
-    induced = tail_influence(tail, elements.node) @ loads.circulation
-    wind = tail_wind(tail, induced, *motion)
-    force_x, force_z = tail_force(tail, frame.density, *wind)[:, 0]
-    return TailLoads(
-        force=np.array([force_x, 0.0, force_z]),
-        position=np.array([tail.x, 0.0, tail.z]),
-        angle_of_attack=tail_angle(tail, *wind),
-        downwash=float(induced[1]),
-    )
+    def taken(self, instants: IntArray) -> "LoadsAlong":
+        """Those at some of the instants (P,)."""
+        return LoadsAlong(StackedLoads(*(each[instants] for each in self.stack)), self._frame)
+
+    @cached_property
+    def power(self) -> FloatArray:
+        """Power (K,) W that the wings' motion relative to the body takes."""
+        force, velocity = self.stack.element_force, self.stack.velocity
+        return np.asarray(-2.0 * (force * velocity).sum(axis=(1, 2)))
+
+    def at(self, k: int) -> Loads:
+        """Those at the k-th instant."""
+        stack, tail = self.stack, self._frame.tail
+        of_tail = TailLoads(
+            force=stack.tail_force[k],
+            position=np.array([tail.x, 0.0, tail.z]),
+            angle_of_attack=float(stack.tail_angle[k]),
+            downwash=float(stack.tail_downwash[k]),
+        )
+        shared = {name: getattr(stack, name)[k] for name in _SHARED}
+        power = float(self.power[k])
+        return Loads(tail=of_tail if tail.span > 0.0 else None, power=power, **shared)
+
+    def dissipation(self, body: FloatArray) -> FloatArray:
+        """Power (K, 4) W that each load takes from a bird that moves so in still air.
+
+        Of the `DISSIPATORS`: "lift" is that of the lifting line, which is its induced drag,
+        "profile" the drag of the wing's sections, "tail" and "body" all of theirs. Minus force
+        times velocity of the point it acts at. `body` (K, 3): u, w (m/s) and q (rad/s).
+        """
+        stack, tail = self.stack, self._frame.tail
+        u, w, q = body.T
+        velocity = stack.velocity.copy()
+        velocity[:, :, 0] += u[:, None] + q[:, None] * stack.position[:, :, 2]
+        velocity[:, :, 2] += w[:, None] - q[:, None] * stack.position[:, :, 0]
+        wing = -2.0 * (stack.element_force * velocity).sum(axis=(1, 2))
+        profile = -2.0 * (stack.profile_drag * velocity).sum(axis=(1, 2))
+        f = stack.tail_force
+        of_tail = -(f[:, 0] * (u + q * tail.z) + f[:, 2] * (w - q * tail.x))
+        of_body = -(stack.body_drag[:, 0] * u + stack.body_drag[:, 2] * w)
+        return np.column_stack([wing - profile, profile, of_tail, of_body])

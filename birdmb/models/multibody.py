@@ -6,7 +6,7 @@ from typing import Any, Literal, Self
 import numpy as np
 import numpy.typing as npt
 
-from birdmb._typing import BoolArray, FloatArray
+from birdmb._typing import BoolArray, FloatArray, IntArray
 from birdmb.aerodynamics.prescribed import driven, driven_at
 from birdmb.errors import StateError
 from birdmb.models.compiled_calls import COMPILED, calls_compiled_code
@@ -19,16 +19,19 @@ from birdmb.models.gusts import Gust
 from birdmb.models.implicit import integrate_implicitly
 from birdmb.models.instants import Instant, Instants
 from birdmb.models.integration import Integration, Integrator, integration_for
+from birdmb.models.loads import LoadsAlong
 from birdmb.models.multibody_kernel import body_velocity, tree_forces
+from birdmb.models.partition import body_forces, partitioned
 from birdmb.models.rates_kernel import Motion
 from birdmb.models.rigid import RigidModel
-from birdmb.models.springs import has_two_sides, spring_torques, springs_of
+from birdmb.models.springs import has_two_sides, spring_torques, spring_torques_along, springs_of
 from birdmb.models.stepped_cycle import SteppedCycle
 from birdmb.models.tree_rates import TreeRates
 from birdmb.models.wing_model import BODY_SCALE, BODY_STATES, BODY_UNITS, WingModel
 from birdmb.topology import Bird
 from birdmb.wing.chain import joints_turning_the_whole
 from birdmb.wing.shape import WingShape
+from birdmb.wing.stacked import StackedShapes
 
 _JOINT_SCALE = (0.5, 10.0)  # rad, rad/s
 _BEATS_TO_SETTLE = 6
@@ -137,11 +140,13 @@ class MultibodyModel(WingModel):
         joints = int(self._compliant.sum())
         return np.array(BODY_SCALE[: self._body_states] + _JOINT_SCALE * joints)
 
-    def joint_motion(self, t: float, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Angles (A,) rad, rates (A,) rad/s of the right wing's joints and hinges in state x."""
-        angles, rates, _ = driven(self.wing, t)
-        angles[self._compliant] = x[self._body_states :: 2]
-        rates[self._compliant] = x[self._body_states + 1 :: 2]
+    def joint_motion_along(
+        self, times: FloatArray, states: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Angles and rates (K, A) of joints and hinges at `times` (K,) s in states (K, n)."""
+        angles, rates, _ = driven_at(self.wing, times)
+        angles[:, self._compliant] = states[:, self._body_states :: 2]
+        rates[:, self._compliant] = states[:, self._body_states + 1 :: 2]
         return angles, rates
 
     def flow(self, x0: npt.ArrayLike, t0: float, t1: float) -> FloatArray:
@@ -188,9 +193,7 @@ class MultibodyModel(WingModel):
             return found
         body = np.empty((len(states), len(BODY_STATES)))
         body[:] = states[:, :4] if self._body_states else self.body_state(states[0])
-        angles, rates, _ = driven_at(self.wing, times)
-        angles[:, self._compliant] = states[:, self._body_states :: 2]
-        rates[:, self._compliant] = states[:, self._body_states + 1 :: 2]
+        angles, rates = self.joint_motion_along(times, states)
         motion = Motion(body, angles, rates, self.air_velocities(times))
         a = self._tree.accelerations(times, motion)
         found = np.empty(states.shape)
@@ -209,7 +212,6 @@ class MultibodyModel(WingModel):
             [np.asarray(body)[: self._body_states], np.column_stack([angles, rates]).ravel()]
         )
 
-    @calls_compiled_code
     def accelerations(self, t: float, x: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Accelerations (n,) of all coordinates and the actuators' forces (n,) on them.
 
@@ -217,29 +219,50 @@ class MultibodyModel(WingModel):
         N m) are those that hold the prescribed joints to their drivers, without springs and
         dampers.
         """
-        q, v = self.coordinates(t, np.asarray(x, dtype=float))
-        (mass,), (bias,) = self._tree.inertia.at(q[None, :], v[None, :])
-        left = bias - self._forces(t, q, v)
-        a = self.driver_accelerations(t).copy()
-        free = ~self.prescribed
-        with overflow_told(self.bird, f"the acceleration at t = {t:.4g} s"):
-            a[free] = np.linalg.solve(
-                mass[np.ix_(free, free)], -left[free] - mass[np.ix_(free, ~free)] @ a[~free]
-            )
-        forces = np.where(free, 0.0, mass @ a + left)
-        return a, forces
+        times, states = np.array([t]), np.asarray(x, dtype=float)[None, :]
+        a, forces = self._accelerations(times, states, self.loads_along(times, states))
+        return a[0], forces[0]
 
-    def actuator_torques(self, t: float, x: npt.ArrayLike) -> FloatArray:
-        """Torques (A,) N m that move joints and hinges of one wing, at t (s) in state x (n,).
+    @calls_compiled_code
+    def _accelerations(
+        self, times: FloatArray, states: FloatArray, loads: LoadsAlong
+    ) -> tuple[FloatArray, FloatArray]:
+        """As `accelerations`, each (K, c)."""
+        q, v = self._coordinates(times, states)
+        mass, bias = self._tree.inertia.at(q, v)
+        torques = loads.stack.joint_torques + self._spring_torques_along(times, states)
+        body = body_forces(loads.stack.force, loads.stack.moment, q[:, 2])
+        _, _, driving = driven_at(self.wing, times)
+        given = np.hstack([np.zeros((times.size, BODY_COORDINATES)), driving, driving])
+        with overflow_told(self.bird, f"the acceleration at t = {times[0]:.4g} s"):
+            left = bias - np.hstack([body, torques, torques])
+            return partitioned(mass, left, given, self.prescribed)
+
+    def _spring_torques_along(self, times: FloatArray, states: FloatArray) -> FloatArray:
+        angles, rates = self.joint_motion_along(times, states)
+        driver_angles, driver_rates, _ = driven_at(self.wing, times)
+        return spring_torques_along(self._springs, angles - driver_angles, rates - driver_rates)
+
+    def actuator_torques_along(
+        self, times: FloatArray, states: FloatArray, loads: LoadsAlong
+    ) -> FloatArray:
+        """Torques (K, A) N m that move joints and hinges of one wing.
 
         Of the actuators that hold prescribed joints to their drivers, inertia included; of spring
         and damper where a joint is compliant.
         """
-        state = np.asarray(x, dtype=float)
-        _, forces = self.accelerations(t, state)
-        return forces[self._right_wing] + self._spring_torques(
-            self.instant(t), *self.joint_motion(t, state)
-        )
+        _, forces = self._accelerations(times, states, loads)
+        right = forces[:, BODY_COORDINATES : BODY_COORDINATES + self._compliant.size]
+        return right + self._spring_torques_along(times, states)
+
+    def _shapes_along(
+        self, times: FloatArray, angles: FloatArray, rates: FloatArray
+    ) -> tuple[StackedShapes, IntArray]:
+        distinct, shape_of = np.unique(times, return_inverse=True)
+        shapes = self._instants.stacked(distinct).shapes
+        if shapes is None:
+            return self._instants.shapes(times, angles, rates), np.arange(times.size)
+        return shapes, shape_of
 
     def initial_guess(self) -> FloatArray:
         """State (n,) at t = 0: the rigid bird's, with the compliant joints settled about it.
@@ -295,11 +318,17 @@ class MultibodyModel(WingModel):
 
     def coordinates(self, t: float, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Coordinates and velocities (c,) of the tree, with X = Z = 0, of state x at time t."""
-        u, w, pitch_rate, theta = self.body_state(x)
+        (q,), (v,) = self._coordinates(np.array([t]), x[None, :])
+        return q, v
+
+    def _coordinates(self, times: FloatArray, states: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """As `coordinates`, each (K, c)."""
+        u, w, pitch_rate, theta = np.array([self.body_state(x) for x in states]).T
         c, s = np.cos(theta), np.sin(theta)
-        angles, rates = self.joint_motion(t, x)
-        place, motion = [0.0, 0.0, theta], [u * c + w * s, -u * s + w * c, pitch_rate]
-        return np.concatenate([place, angles, angles]), np.concatenate([motion, rates, rates])
+        angles, rates = self.joint_motion_along(times, states)
+        place = np.column_stack([np.zeros((times.size, 2)), theta])
+        motion = np.column_stack([u * c + w * s, -u * s + w * c, pitch_rate])
+        return np.hstack([place, angles, angles]), np.hstack([motion, rates, rates])
 
     def _state(self, q: FloatArray, v: FloatArray, when: str) -> FloatArray:
         if not (np.isfinite(q).all() and np.isfinite(v).all()):

@@ -32,6 +32,7 @@ from birdmb.models.wing_model import (
     WingModel,
 )
 from birdmb.topology import Bird
+from birdmb.wing.stacked import StackedShapes
 
 _ORDER = 4
 _TOLERANCE = 1e-6
@@ -204,12 +205,18 @@ class RigidModel(WingModel):
             table = self._tables[key] = self.wing_at(times)
         return table
 
+    def _shapes_along(
+        self, times: FloatArray, _angles: FloatArray, _rates: FloatArray
+    ) -> tuple[StackedShapes, IntArray]:
+        table, phase = self._table_for(times)
+        return table.shapes, phase
+
     def wing_at(self, times: FloatArray) -> PrescribedWing:
         """The wing on its drivers at `times` (P,) s; raises `StateError` where it has no loads."""
         with overflow_told(self.bird, "the wing's circulation"):
             wing = prescribed_wing(self.wing, self.airframe.tail, times, *self.discretisation)
-        if not wing.converged.all():
-            t = float(times[np.argmin(wing.converged)])
+        if not wing.shapes.converged.all():
+            t = float(times[np.argmin(wing.shapes.converged)])
             raise lifting_line_lost(self.bird, t, driven(self.wing, t)[0])
         misplaced = ~(wing.clearance >= 0.0)
         if misplaced.any():

@@ -57,3 +57,14 @@ def spring_torques(
         stiffness += springs.cubic[j] * d * d
         torques[j] = -springs.damping[j] * deflection_rate[j] - stiffness * d
     return torques
+
+
+@kernel
+def spring_torques_along(
+    springs: Springs, deflections: FloatArray, deflection_rates: FloatArray
+) -> FloatArray:
+    """As `spring_torques`, (K, A), at deflections and rates (K, A)."""
+    torques = np.empty(deflections.shape)
+    for k in range(deflections.shape[0]):
+        torques[k] = spring_torques(springs, deflections[k], deflection_rates[k])
+    return torques

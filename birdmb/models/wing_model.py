@@ -7,21 +7,18 @@ from typing import Any, Literal, Self
 import numpy as np
 import numpy.typing as npt
 
-from birdmb._typing import FloatArray
+from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.airframe import airframe
-from birdmb.aerodynamics.circulation import element_loads
-from birdmb.aerodynamics.elements import clearance, place_elements
-from birdmb.aerodynamics.joints import hinge_torques, joint_torques
-from birdmb.aerodynamics.prescribed import driven
+from birdmb.aerodynamics.prescribed import driven_at
 from birdmb.errors import StateError
 from birdmb.models.failures import lifting_line_lost, overflow_told, wing_misplaced
 from birdmb.models.flight import Flight
 from birdmb.models.gusts import Gust
-from birdmb.models.loads import Loads, assemble_loads
+from birdmb.models.loads import Loads, LoadsAlong
+from birdmb.models.loads_kernel import loads_along
 from birdmb.topology import Bird
 from birdmb.wing.arrays import wing_arrays
-from birdmb.wing.chain import joint_chain
-from birdmb.wing.shape import wing_shape
+from birdmb.wing.stacked import StackedShapes, wing_shapes
 
 # Divisible by 1 to 6: that many shooting segments then share one grid of steps.
 STEPS_PER_BEAT = 60
@@ -44,6 +41,8 @@ class WingModel(ABC):
 
     state_names: tuple[str, ...]
     state_units: tuple[str, ...]
+    # How many joints at the shoulder are left out of the wing's shape: they turn it as a whole.
+    turning = 0
 
     def __init__(
         self, bird: Bird, *, steps_per_beat: int | None = None, gust: Gust | None = None
@@ -109,9 +108,17 @@ class WingModel(ABC):
         """The body's part u, w, q, theta (4,) of a state."""
         return x[:4]
 
-    def joint_motion(self, t: float, _x: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def joint_motion(self, t: float, x: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Angles (A,) rad and rates (A,) rad/s of the right wing's joints and hinges at t (s)."""
-        angles, rates, _ = driven(self.wing, t)
+        states = np.asarray(x, dtype=float)[None, :]
+        (angles,), (rates,) = self.joint_motion_along(np.array([t]), states)
+        return angles, rates
+
+    def joint_motion_along(
+        self, times: FloatArray, _states: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """As `joint_motion`, each (K, A), at `times` (K,) s in states (K, n)."""
+        angles, rates, _ = driven_at(self.wing, times)
         return angles, rates
 
     def actuator_torques(self, t: float, x: npt.ArrayLike) -> FloatArray:
@@ -119,7 +126,14 @@ class WingModel(ABC):
 
         Of massless wings: those that balance the air.
         """
-        return -self.loads(t, x).joint_torques
+        times, states = np.array([t]), np.asarray(x, dtype=float)[None, :]
+        return self.actuator_torques_along(times, states, self.loads_along(times, states))[0]
+
+    def actuator_torques_along(
+        self, _times: FloatArray, _states: FloatArray, loads: LoadsAlong
+    ) -> FloatArray:
+        """As `actuator_torques`, (K, A), at `times` (K,) s in states (K, n) with these loads."""
+        return -loads.stack.joint_torques
 
     def loads(self, t: float, x: npt.ArrayLike) -> Loads:
         """Aerodynamic loads at time t (s) in state x (n,).
@@ -128,40 +142,50 @@ class WingModel(ABC):
             StateError: the lifting line cannot be found or crosses the plane of symmetry, or the
                 state is not finite.
         """
-        state = np.asarray(x, dtype=float)
-        if not np.isfinite(state).all():
-            raise StateError(f"loads asked for at t = {t:.6g} s in a state that is not finite.")
-        angles, rates = self.joint_motion(t, state)
-        forward, down = self.air_velocity(t)
-        with overflow_told(self.bird, f"the force of the air at t = {t:.4g} s"):
-            return self._loads(t, state, angles, rates, forward, down)
+        return self.loads_along(np.array([t]), np.asarray(x, dtype=float)[None, :]).at(0)
 
-    def _loads(
-        self,
-        t: float,
-        state: FloatArray,
-        angles: FloatArray,
-        rates: FloatArray,
-        forward: float,
-        down: float,
-    ) -> Loads:
-        shape = wing_shape(self.wing, angles, rates, *self.discretisation)
-        if not shape.converged:
-            raise lifting_line_lost(self.bird, t, angles)
-        elements = place_elements(shape, self.wing.root)
-        distance = clearance(elements)
-        if not distance >= 0.0:
-            raise wing_misplaced(self.bird, t, angles, distance)
-        u, w, q, theta = self.body_state(state)
+    def loads_along(self, times: FloatArray, states: FloatArray) -> LoadsAlong:
+        """Aerodynamic loads at `times` (K,) s in states (K, n); raises as `loads`."""
+        finite = np.isfinite(states).all(axis=1)
+        if not finite.all():
+            t = float(times[np.argmin(finite)])
+            raise StateError(f"loads asked for at t = {t:.6g} s in a state that is not finite.")
+        angles, rates = self.joint_motion_along(times, states)
+        with overflow_told(self.bird, f"the force of the air at t = {times[0]:.4g} s"):
+            shapes, shape_of = self._shapes_along(times, angles, rates)
+            if not shapes.converged[shape_of].all():
+                k = int(np.argmin(shapes.converged[shape_of]))
+                raise lifting_line_lost(self.bird, float(times[k]), angles[k])
+            stack = loads_along(
+                self.wing,
+                shapes,
+                shape_of,
+                self.turning,
+                self.airframe,
+                angles,
+                rates,
+                self._motion_through_air(times, states),
+            )
+        misplaced = ~(stack.clearance >= 0.0)
+        if misplaced.any():
+            k = int(np.argmax(misplaced))
+            t, distance = float(times[k]), float(stack.clearance[k])
+            raise wing_misplaced(self.bird, t, angles[k], distance)
+        return LoadsAlong(stack, self.airframe)
+
+    def _shapes_along(
+        self, _times: FloatArray, angles: FloatArray, rates: FloatArray
+    ) -> tuple[StackedShapes, IntArray]:
+        """Shapes of the wing, those joints at zero that turn it, and which (K,) is whose."""
+        shapes = wing_shapes(self.wing, angles, rates, *self.discretisation)
+        return shapes, np.arange(len(angles))
+
+    def _motion_through_air(self, times: FloatArray, states: FloatArray) -> FloatArray:
+        """Velocity u, w (m/s) of the body through the air, and its pitch rate q (rad/s), (K, 3)."""
+        u, w, q, theta = np.array([self.body_state(x) for x in states]).T
+        forward, down = self.air_velocities(times).T
         c, s = np.cos(theta), np.sin(theta)
-        motion = u - forward * c + down * s, w - forward * s - down * c, q
-        frame = self.airframe
-        found = element_loads(elements, frame.density, frame.profile, *motion)
-        chain = joint_chain(self.wing, angles)
-        about_joints = joint_torques(self.wing, chain, elements.position, found.force, shape.beyond)
-        about_hinges = hinge_torques(shape.hinge_velocity, found.force)
-        torques = np.concatenate([about_joints, about_hinges])
-        return assemble_loads(elements, found, torques, frame, motion)
+        return np.column_stack([u - forward * c + down * s, w - forward * s - down * c, q])
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle as the call that makes the model: compiled tables are made again where needed."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from typing import Protocol
 
 import numpy as np
 from scipy.linalg import lapack
@@ -137,6 +138,17 @@ class CollocationEquations:
         return float(_NOISE * _EPS * largest)
 
 
+class HasNodes(Protocol):
+    """Collocation equations, of an orbit alone or with others."""
+
+    @property
+    def nodes(self) -> int:
+        """Number of nodes."""
+
+    def start_and_period(self, u: FloatArray, /) -> tuple[FloatArray, float]:
+        """State (n,) at the start, in its own units, and the period."""
+
+
 @dataclass(frozen=True)
 class Collocated:
     """A solution of the collocation equations, and what a finer one makes of it.
@@ -224,7 +236,7 @@ def collocate(
         if fixed or error <= accuracy:
             return Collocated(equations, u, residual, finer, finer_u, error, tuple(history))
         errors.append(error)
-        _refuse_rough(equations, u, errors, accuracy, most_nodes, history)
+        refuse_rough(equations, u, errors, accuracy, most_nodes, history)
         first = resampled(jacobians, finer.nodes)
         equations, u = finer, finer_u
 
@@ -250,14 +262,15 @@ def _correction(
     return finer, start + step, _ERROR_PER_CORRECTION * float(np.abs(step).max())
 
 
-def _refuse_rough(
-    equations: CollocationEquations,
+def refuse_rough(
+    equations: HasNodes,
     u: FloatArray,
     errors: list[float],
     accuracy: float,
     most_nodes: int,
     history: list[Iteration],
 ) -> None:
+    """Raise `NotSmoothError` where the `errors` so far will not reach the accuracy."""
     nodes = equations.nodes
     following = more_nodes(nodes)
     known = len(errors) >= _RUNGS_TO_JUDGE

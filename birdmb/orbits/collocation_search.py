@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import cast
 
 import numpy as np
@@ -66,8 +67,8 @@ def search_by_collocation(
         raise ArgumentError(f"start_time must be finite, not {start_time}.")
     autonomous, period = period_or_guess(model, period_guess)
     first = nodes or FIRST_NODES
-    if isinstance(guess, LimitCycle) and guess.nodes is not None and nodes is None:
-        first = max(FIRST_NODES, fewer_nodes(guess.nodes))
+    if nodes is None:
+        first = min(max(FIRST_NODES, nodes_shown(guess)), most_nodes)
     path = guessed_path(model, guess, start_time, period, first)
     declared = declared_scale(model)
     scale = sizes_along(model, path, start_time, period) if declared is None else declared
@@ -101,12 +102,25 @@ def search_by_collocation(
         found = search(path, period, scale)
         iterations += found.iterations
     _refuse_equilibrium(found, iterations)
-    fields = linearise_collocated(found, accuracy, gap)
+    return collocated_cycle(replace(found, iterations=iterations), accuracy, gap)
+
+
+def collocated_cycle(found: Collocated, accuracy: float, derivative_gap: float = 0.0) -> LimitCycle:
+    """The cycle that was found, of the type that its model names; see `linearise_collocated`."""
+    model = found.equations.rhs.model
+    fields = linearise_collocated(found, accuracy, derivative_gap)
+    fields |= {"iterations": found.iterations, "state_error": found.state_error}
     kind = model.limit_cycle_type if isinstance(model, HasLimitCycleType) else LimitCycle
-    return cast(
-        "LimitCycle",
-        kind(**fields, iterations=iterations, state_error=found.state_error),
-    )
+    return cast("LimitCycle", kind(**fields))
+
+
+def nodes_shown(guess: npt.ArrayLike | FloquetResult | None) -> int:
+    """The odd number of nodes that a guess is good for; 0 where it tells of none."""
+    if isinstance(guess, FloquetResult):
+        shown = guess.nodes if isinstance(guess, LimitCycle) else None
+        return fewer_nodes(shown or 1)
+    shape = () if guess is None else np.shape(guess)
+    return shape[0] if len(shape) == 2 and shape[0] % 2 else 0
 
 
 def _derivative_gap(

@@ -24,6 +24,7 @@ from birdmb.orbits.shooting_search import search_by_shooting
 
 SearchMethod = Literal["auto", "collocation", "shooting"]
 
+TOLERANCE, ACCURACY = 1e-9, 1e-7
 # An automatic choice goes on to shooting rather than to more nodes, or to more unknowns, than this.
 _MOST_NODES_BY_CHOICE = 129
 _MOST_UNKNOWNS_BY_CHOICE = 1000
@@ -40,10 +41,10 @@ def find_limit_cycle(
     period_guess: float | None = None,
     start_time: float = 0.0,
     damping: Damping = "line-search",
-    tolerance: float = 1e-9,
+    tolerance: float = TOLERANCE,
     max_iterations: int = 50,
     nodes: int | None = None,
-    accuracy: float = 1e-7,
+    accuracy: float = ACCURACY,
     segments: int | None = None,
     jacobian: Literal["auto", "variational", "finite-differences"] = "auto",
     jacobian_guess: npt.ArrayLike | None = None,
@@ -142,6 +143,8 @@ def find_limit_cycle(
             if method == "collocation" or nodes is not None:
                 raise
             reason = f"collocation failed: {error}"
+            if not (guess is None or isinstance(guess, FloquetResult)) and np.ndim(guess) == 2:
+                start = np.asarray(guess, float)[0]
             if isinstance(error, NotSmoothError):
                 reason = str(error).partition(" Take method=")[0]
                 if error.residual < _NEAR:

@@ -36,7 +36,8 @@ def gust_response(
 
     The gust is the same everywhere at a time. The linear response solves the equations linearised
     about the cycle, dx' = A(t) dx + B(t) g(t), and is split into the Floquet modes of the cycle;
-    its difference from the full one is of second order in the gust.
+    its difference from the full one is of second order in the gust, but for what the integration's
+    steps err by.
 
     Args:
         cycle: limit cycle of a bird, stable or not.

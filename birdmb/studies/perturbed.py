@@ -18,7 +18,9 @@ def perturbed_flight(
     """Follow the flight after a disturbance along each mode of the cycle, by the full model.
 
     Of a conjugate pair of modes, the one with the multiplier above the real axis is taken; the
-    disturbance is its real part (`birdmb.orbits.mode_disturbance`).
+    disturbance is its real part (`birdmb.orbits.mode_disturbance`). The model integrates the
+    flight: what its steps err by (`FlightCycle.flown_closure`) disturbs it, too, and should be far
+    less.
 
     Args:
         cycle: limit cycle of a bird.

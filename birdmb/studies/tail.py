@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
-from functools import partial
 from os import PathLike
 
 import numpy as np
@@ -31,7 +30,8 @@ LARGEST_ROLL = 12.0
 LARGEST_PITCH = 6.0
 # Wider than the rule, so that it is told from flights that do not exist.
 _ROLL_BOUNDS = (-30.0, 30.0)
-_STEPS_PER_BEAT = 30
+# Of the states, in units of their scale: the multipliers are then known to some 1e-7.
+_ACCURACY = 3e-5
 _OPENING_STEP = 2.5
 
 
@@ -42,7 +42,7 @@ def tail_study(
     every: int = 1,
     workers: int | None = None,
     executor: Executor | None = None,
-    model: ModelFactory | None = None,
+    model: ModelFactory = RigidModel,
     on_point: Callable[[Finished], None] | None = None,
 ) -> Study:
     """Level the flight by the roll of the forearm for all openings of the tail and gaits.
@@ -55,7 +55,7 @@ def tail_study(
         store: file that keeps the study.
         every: take only one of so many values; 5 makes a coarse study of 210 flights.
         workers, executor, on_point: as for `sweep`.
-        model: by default `RigidModel` with 30 steps per beat.
+        model: makes the model of a bird.
 
     Raises:
         TopologyError: the bird has no tail, or none of the joints.
@@ -74,8 +74,9 @@ def tail_study(
         store=store,
         workers=workers,
         executor=executor,
-        model=model or partial(RigidModel, steps_per_beat=_STEPS_PER_BEAT),
+        model=model,
         trim=Trimming({ROLL: _ROLL_BOUNDS}),
+        accuracy=_ACCURACY,
         on_point=on_point,
     )
 
@@ -167,7 +168,7 @@ def stability_openings(
     amplitudes: tuple[float, float] = (29.0, 45.0),
     openings: tuple[float, float] = (0.0, 45.0),
     seeds: int = 5,
-    model: ModelFactory | None = None,
+    model: ModelFactory = RigidModel,
 ) -> tuple[StabilityOpening, ...]:
     """Trace the opening of the tail at which level flight becomes stable, for offsets of the sweep.
 
@@ -180,12 +181,11 @@ def stability_openings(
         sweeps: offsets of the shoulder's sweep, degrees.
         amplitudes, openings: ranges, degrees.
         seeds: how many amplitudes are tried for curves that were not met yet.
-        model: by default `RigidModel` with 30 steps per beat.
+        model: makes the model of a bird.
     """
-    kind = model or partial(RigidModel, steps_per_beat=_STEPS_PER_BEAT)
     found = []
     for sweep_offset in sweeps:
-        flights = _LevelFlights(bird.with_values({SWEEP: float(sweep_offset)}), kind)
+        flights = _LevelFlights(bird.with_values({SWEEP: float(sweep_offset)}), model)
         curves: list[ZeroCurve] = []
         for amplitude in np.linspace(*amplitudes, seeds + 2)[1:-1]:
             opening = flights.crossing(float(amplitude), openings)
@@ -217,8 +217,9 @@ class _LevelFlights:
             model=self._model,
             tolerance=1e-6,
             guess=self._last or TrimGuess({ROLL: 0.0}),
+            search={"accuracy": _ACCURACY},
         )
-        self._last = TrimGuess(trim.values, trim.cycle.x0)
+        self._last = TrimGuess(trim.values, trim.cycle)
         return float(np.log(np.abs(trim.cycle.multipliers).max()))
 
     def crossing(self, amplitude: float, openings: tuple[float, float]) -> float | None:

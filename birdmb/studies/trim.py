@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -14,8 +14,8 @@ from scipy.optimize import least_squares, root_scalar
 
 from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError, StateError
-from birdmb.models import FlightCycle, RigidModel
-from birdmb.orbits import ArgumentError
+from birdmb.models import FlightCycle, RigidModel, WingModel
+from birdmb.orbits import ArgumentError, FloquetResult
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.errors import TrimError
 from birdmb.studies.trim_search import Trimmed, TrimSearch
@@ -57,11 +57,12 @@ class TrimGuess:
 
     Attributes:
         values: of the parameters, by dotted name.
-        x0: its state (n,) at t = 0; level forward flight if it is not known.
+        orbit: the limit cycle, states (K, n) at K even instants of its beat, or its state (n,) at
+            t = 0; level forward flight if it is not known.
     """
 
     values: Mapping[str, float]
-    x0: npt.ArrayLike | None = None
+    orbit: npt.ArrayLike | FloquetResult | None = None
 
 
 def trim_flight(
@@ -77,8 +78,9 @@ def trim_flight(
 ) -> Trim:
     """Find the value of a parameter that gives a mean climb rate, or of two that also give a speed.
 
-    Newton's method on closure and targets together (`TrimEquations`), at the bird's own values of
-    the parameters, or in the middle of the bounds where they are beyond these. It starts from the
+    Newton's method on orbit and targets as one system, by collocation (`CollocatedTrim`) or, where
+    the orbit is not smooth, by shooting (`TrimEquations`), at the bird's own values of the
+    parameters, or in the middle of the bounds where they are beyond these. It starts from the
     guess if there is one, from a body in level forward flight, and from the limit cycle at the
     start. Where all this fails without a guess: for one parameter Brent's method in the sign change
     nearest to the start on a grid over the bounds, for two bounded least squares. A bird that
@@ -116,12 +118,12 @@ def trim_flight(
     with suppress(Trimmed):
         if guess is not None:
             point = np.array([guess.values[name] for name in trials.names])
-            _solve_together(trials, point, guess.x0)
+            _solve_together(trials, point, guess.orbit)
         from_guess = False
         _solve_together(trials, trials.start, None)
         if guess is None:
             with suppress(OrbitError, StateError):
-                _solve_together(trials, trials.start, trials.state_at(trials.start))
+                _solve_together(trials, trials.start, trials.orbit_at(trials.start))
         if guess is None and speed is None:
             _solve_one(trials)
         elif guess is None:
@@ -129,16 +131,15 @@ def trim_flight(
     return _result(trials, from_guess)
 
 
-def _solve_together(search: TrimSearch, point: FloatArray, x0: npt.ArrayLike | None) -> None:
-    """Raise `Trimmed` if Newton's method finds a trim from this point and state (n,).
+def _solve_together(
+    search: TrimSearch, point: FloatArray, guess: npt.ArrayLike | FloquetResult | None
+) -> None:
+    """Raise `Trimmed` if Newton's method finds a trim from these parameters and this orbit.
 
-    The state by default: forward flight. Where it fails there are other places to start from.
+    Where it fails there are other places to start from.
     """
     try:
-        start = search.forward_flight() if x0 is None else np.asarray(x0, dtype=float)
-        found, state = search.equations.solve(point, start)
-        search.start_from(state)
-        search.differences(found)
+        search.solve_together(point, guess)
     except (OrbitError, StateError) as error:
         search.failed_together(error)
 
@@ -192,5 +193,5 @@ def _result(search: TrimSearch, from_guess: bool) -> Trim:
     if not search.is_trimmed(best):
         raise TrimError(search.not_trimmed(best), values, best.reached)
     residual = float(np.abs(best.differences).max())
-    bird = search.bird.with_values(values)
+    bird = cast("WingModel", best.cycle.model).bird
     return Trim(bird, best.cycle, values, residual, len(search.found), from_guess)

@@ -6,7 +6,7 @@ of them moves it far. The trimmed flight is not: the parameters move with it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 import scipy.sparse as sp
@@ -16,9 +16,10 @@ from birdmb.errors import OrbitError, StateError
 from birdmb.models.flight_cycle import world_velocity
 from birdmb.models.wing_model import WingModel
 from birdmb.orbits.newton import Iteration, solve
+from birdmb.studies.cycles import KeptModels
 
 _TOLERANCE = 1e-10  # below what cycles are searched to, so that theirs is met at once
-_ITERATIONS = 12
+ITERATIONS = 12
 _LEAST_DAMPING = 1 / 16  # a search that creeps seldom arrives, and takes long
 _STEP = 1e-6  # of the state scale and of the distance between the bounds
 
@@ -30,7 +31,7 @@ class TrimEquations:
     of the way between their bounds. Residuals in units of the state scale and in m/s.
 
     Args:
-        model_at: makes the model at parameters (k,).
+        model_at: the models at parameters (k,).
         low: lower bounds (k,).
         high: upper bounds (k,).
         targets: "climb_rate" and perhaps "speed", m/s.
@@ -40,14 +41,13 @@ class TrimEquations:
 
     def __init__(
         self,
-        model_at: Callable[[FloatArray], WingModel],
+        model_at: KeptModels,
         low: FloatArray,
         high: FloatArray,
         targets: Mapping[str, float],
     ) -> None:
         self._model_at, self._low, self._width = model_at, low, high - low
         self._targets = targets
-        self._last: tuple[tuple[float, ...], WingModel] | None = None
 
     def solve(self, point: FloatArray, x0: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Parameters (k,) and state (n,) of a trimmed cycle near these, by Newton's method.
@@ -56,14 +56,14 @@ class TrimEquations:
             OrbitError: it was not found.
             StateError: there is no flight to start from.
         """
-        scale = self._model(point).state_scale
+        scale = self._model_at(point).state_scale
         u, _, _ = solve(
             self,
             np.concatenate([x0 / scale, (point - self._low) / self._width]),
             damping="line-search",
             tolerance=_TOLERANCE,
-            max_iterations=_ITERATIONS,
-            callback=_give_up_creeping,
+            max_iterations=ITERATIONS,
+            callback=give_up_creeping,
         )
         point, x0, _ = self._unpacked(u)
         return point, x0
@@ -106,18 +106,12 @@ class TrimEquations:
         if ((u[n:] < 0.0) | (u[n:] > 1.0)).any():
             raise StateError("the parameters left their bounds.")
         point = self._low + u[n:] * self._width
-        model = self._model(point)
+        model = self._model_at(point)
         return point, u[:n] * model.state_scale, model
 
-    def _model(self, point: FloatArray) -> WingModel:
-        """The model, kept from the last call: differences by the state ask for the same one."""
-        key = tuple(point.tolist())
-        if self._last is None or self._last[0] != key:
-            self._last = key, self._model_at(point)
-        return self._last[1]
 
-
-def _give_up_creeping(step: Iteration) -> None:
+def give_up_creeping(step: Iteration) -> None:
+    """Raise `OrbitError` where steps are shortened much."""
     if step.damping < _LEAST_DAMPING:
         raise OrbitError(
             f"the search creeps after {step.number} steps, at a residual of {step.residual:.3g}."

@@ -5,17 +5,22 @@ from __future__ import annotations
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, cast
 
 import numpy as np
+import numpy.typing as npt
 
 from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError, StateError
 from birdmb.models import FlightCycle, WingModel
 from birdmb.models.wing_model import BODY_STATES
-from birdmb.orbits.problem import HasInitialGuess
-from birdmb.studies.cycles import ModelFactory, WarmCycles
+from birdmb.orbits import FloquetResult, NotSmoothError
+from birdmb.orbits.collocation import FIRST_NODES
+from birdmb.orbits.collocation_search import collocated_cycle, guessed_path, nodes_shown
+from birdmb.orbits.problem import HasGuessedPath, HasInitialGuess, HasRates
+from birdmb.orbits.search import ACCURACY, TOLERANCE
+from birdmb.studies.cycles import KeptModels, ModelFactory, WarmCycles
+from birdmb.studies.trim_collocation import CollocatedTrim, solve_collocated
 from birdmb.studies.trim_equations import TrimEquations
 from birdmb.topology import Bird
 
@@ -63,7 +68,8 @@ class TrimSearch:
         self.start = np.where(inside, own, 0.5 * (self.low + self.high))
         for bound in (self.low, self.high):  # bounds that no bird can have are told at once
             bird.with_values(self.named(bound))
-        self._cycle = WarmCycles(bird, model, options)
+        self._cycle, self._options = WarmCycles(bird, model, options), options
+        self._model_at = KeptModels(self._made_at)
         self.found: dict[tuple[float, ...], Trial] = {}
         self._failures: dict[tuple[float, ...], str] = {}
         self._failure_together = ""
@@ -82,19 +88,77 @@ class TrimSearch:
             except (OrbitError, StateError) as error:
                 self._failures[key] = str(error)
                 raise
-            reached = {"climb_rate": cycle.mean_climb_rate, "speed": cycle.mean_speed}
-            missed = np.array([reached[name] - wanted for name, wanted in self._targets.items()])
-            self.found[key] = Trial(point.copy(), cycle, reached, missed)
-            if self.is_trimmed(self.found[key]) and not self.found[key].steep:
-                raise Trimmed
+            self._keep(point, cycle)
         return self.found[key].differences
 
-    @cached_property
-    def equations(self) -> TrimEquations:
-        """Closure and targets as one system."""
-        return TrimEquations(self._model_at, self.low, self.high, self._targets)
+    def _keep(self, point: FloatArray, cycle: FlightCycle) -> None:
+        """Keep a trial; raises `Trimmed` if it is."""
+        reached = {"climb_rate": cycle.mean_climb_rate, "speed": cycle.mean_speed}
+        missed = np.array([reached[name] - wanted for name, wanted in self._targets.items()])
+        trial = Trial(point.copy(), cycle, reached, missed)
+        self.found[tuple(point.tolist())] = trial
+        if self.is_trimmed(trial) and not trial.steep:
+            raise Trimmed
 
-    def _model_at(self, point: FloatArray) -> WingModel:
+    def solve_together(
+        self, point: FloatArray, guess: npt.ArrayLike | FloquetResult | None
+    ) -> None:
+        """Solve closure and targets as one system from parameters (k,) and a guess of the orbit.
+
+        By collocation; where the model has no rates, the options ask for shooting or the orbit is
+        not smooth, by shooting. `None` is level forward flight.
+
+        Raises:
+            Trimmed: they are met, in a flight that is not steep.
+            OrbitError, StateError: they are not met.
+        """
+        if self._collocates(point):
+            try:
+                self._keep(*self._collocated(point, guess))
+            except NotSmoothError:
+                if self._options.get("method") == "collocation":
+                    raise
+            else:
+                return
+        state = self.forward_flight() if guess is None else _first_state(guess)
+        equations = TrimEquations(self._model_at, self.low, self.high, self._targets)
+        point, state = equations.solve(point, state)
+        self._cycle.start_from(state)
+        self.differences(point)
+
+    def _collocates(self, point: FloatArray) -> bool:
+        options = self._options
+        shooting = options.get("method") == "shooting" or options.get("segments") is not None
+        return not shooting and isinstance(self._model_at(point), HasRates)
+
+    def _collocated(
+        self, point: FloatArray, guess: npt.ArrayLike | FloquetResult | None
+    ) -> tuple[FloatArray, FlightCycle]:
+        nodes = max(FIRST_NODES, nodes_shown(guess))
+        model = self._model_at(point)
+        if guess is None:
+            path = self._forward_path(nodes)
+        else:
+            path = guessed_path(model, guess, 0.0, model.bird.period, nodes)
+        equations = CollocatedTrim(self._model_at, self.low, self.high, self._targets, nodes)
+        accuracy = self._options.get("accuracy", ACCURACY)
+        # The targets are part of the residual.
+        tolerance = min(self._options.get("tolerance", TOLERANCE), 0.1 * self._tolerance)
+        point, found = solve_collocated(
+            equations, path, point, tolerance=tolerance, accuracy=accuracy
+        )
+        return point, cast("FlightCycle", collocated_cycle(found, accuracy))
+
+    def _forward_path(self, nodes: int) -> FloatArray:
+        """States (nodes, n) over a beat of a body in level forward flight."""
+        state, model = self.forward_flight(), self._model_at(self.start)
+        path = np.tile(state, (nodes, 1))
+        if state.size > len(BODY_STATES) and isinstance(model, HasGuessedPath):
+            path = model.guess_along(model.bird.period * np.arange(nodes) / nodes)
+            path[:, : len(BODY_STATES)] = state[: len(BODY_STATES)]
+        return path
+
+    def _made_at(self, point: FloatArray) -> WingModel:
         return cast("WingModel", self._model(self.bird.with_values(self.named(point))))
 
     def forward_flight(self) -> FloatArray:
@@ -111,8 +175,8 @@ class TrimSearch:
         x[: len(BODY_STATES)] = max(float(fastest), _SLOWEST), 0.0, 0.0, 0.0
         return x
 
-    def state_at(self, point: FloatArray) -> FloatArray:
-        """State (n,) of the limit cycle with these parameters, or the model's guess of it.
+    def orbit_at(self, point: FloatArray) -> FlightCycle | FloatArray:
+        """The limit cycle with these parameters, or the state (n,) that the model guesses.
 
         Raises:
             Trimmed: it is trimmed already.
@@ -120,16 +184,12 @@ class TrimSearch:
         """
         with suppress(OrbitError, StateError):
             self.differences(point)
-            return self.found[tuple(point.tolist())].cycle.x0
+            return self.found[tuple(point.tolist())].cycle
         return cast("HasInitialGuess", self._model_at(point)).initial_guess()
 
     def failed_together(self, error: Exception) -> None:
         """Keep why closure and targets could not be met together; the last reason counts."""
         self._failure_together = str(error)
-
-    def start_from(self, x0: FloatArray) -> None:
-        """Start the search for the next limit cycle from a state (n,)."""
-        self._cycle.start_from(x0, None)
 
     @property
     def best(self) -> Trial | None:
@@ -199,6 +259,13 @@ def _spelt(speeds: Mapping[str, float]) -> str:
 
 def _assigned(values: Mapping[str, float]) -> str:
     return ", ".join(f"{name} = {value:.6g}" for name, value in values.items())
+
+
+def _first_state(guess: npt.ArrayLike | FloquetResult) -> FloatArray:
+    """State (n,) at the start of a guess."""
+    if isinstance(guess, FloquetResult):
+        return guess.x0
+    return np.atleast_2d(np.asarray(guess, dtype=float))[0]
 
 
 def _number(value: object) -> float:

@@ -30,7 +30,7 @@ from matplotlib.figure import Figure
 from birdmb._typing import BoolArray, FloatArray
 from birdmb.models import FlightCycle, WingModel
 from birdmb.studies.validity_figure import plot_validity
-from birdmb.wing.outline import WingOutline, wing_outline
+from birdmb.wing.outline import areas_across, wing_outline
 
 TIP_AREA = 0.01
 LARGEST_ANGLE = float(np.radians(15.0))
@@ -167,8 +167,10 @@ class Validity:
 
         Relative to the body, along its z axis (Taylor, Nudds & Thomas 2003).
         """
-        model = cast(WingModel, self.cycle.model)
-        heights = [outline.line[-1, 2] for outline in _outlines(self.cycle)]
+        model, beat = cast(WingModel, self.cycle.model), self.cycle.beat
+        angles, _ = model.joint_motion_along(beat.times, beat.states)
+        discretisation = model.bird.wing.resolved_discretisation
+        heights = [wing_outline(model.wing, at, discretisation).line[-1, 2] for at in angles]
         return model.bird.gait.frequency * float(np.ptp(heights)) / self.cycle.mean_speed
 
     @property
@@ -211,7 +213,7 @@ def assess_validity(
         bird=model.bird.name, largest_angle=largest_angle, tip_area=TIP_AREA
     )
     area = data["area"].values[:-1]
-    span = np.array([loads.width.sum() for loads in cycle.beat.loads])[:-1]
+    span = cycle.beat.loads_along.stack.width[:-1].sum(axis=1)
     mean_chord = float((area.sum(axis=1) / span).mean())
     k = np.pi * frequency * mean_chord / cycle.mean_speed
     excesses: list[Excess | TailExcess | Overlap] = list(_beyond_angle(data, largest_angle))
@@ -225,7 +227,8 @@ def assess_validity(
     tail_angle = np.abs(cycle.beat.tail_angle[:-1])
     if (tail_angle > largest_tail_angle).any():
         excesses.append(TailExcess(*_worst_of_beat(cycle, tail_angle, largest_tail_angle)))
-    overlap = np.array([outline.area_across for outline in _outlines(cycle)[:-1]])
+    angles, _ = model.joint_motion_along(cycle.beat.times[:-1], cycle.beat.states[:-1])
+    overlap = areas_across(model.wing, angles, model.bird.wing.resolved_discretisation)
     if (overlap > largest_overlap).any():
         excesses.append(Overlap(*_worst_of_beat(cycle, overlap, largest_overlap)))
     return Validity(
@@ -249,18 +252,16 @@ def _worst_of_beat(
 
 def _along_span_and_beat(cycle: FlightCycle, frequency: float) -> xr.Dataset:
     beat = cycle.beat
-    chord, width, speed, circulation, geometric = (
-        np.array([getattr(loads, name) for loads in beat.loads])
-        for name in ("chord", "width", "speed", "circulation", "angle_of_attack")
-    )
-    along, length = _span_positions(np.array([loads.position for loads in beat.loads]), width)
+    loads = beat.loads_along.stack
+    chord, width, speed, circulation = loads.chord, loads.width, loads.speed, loads.circulation
+    along, length = _span_positions(loads.position, width)
     area = chord * width
     # The tip: elements of which the middle lies in the last of the area.
     outside = np.cumsum(area[:, ::-1], axis=1)[:, ::-1] - 0.5 * area
     both = ("time", "element")
     return xr.Dataset(
         {
-            "angle_of_attack": (both, geometric, {"units": "rad"}),
+            "angle_of_attack": (both, loads.angle_of_attack, {"units": "rad"}),
             "effective_angle_of_attack": (
                 both,
                 circulation / (np.pi * chord * speed),
@@ -322,13 +323,3 @@ def _excess(
         phase=float(at["phase"]),
         share=float((area * beyond[:-1]).sum() / area.sum()),
     )
-
-
-def _outlines(cycle: FlightCycle) -> list[WingOutline]:
-    """The wing at each instant of the beat."""
-    model = cast(WingModel, cycle.model)
-    discretisation = model.bird.wing.resolved_discretisation
-    return [
-        wing_outline(model.wing, model.joint_motion(t, x)[0], discretisation)
-        for t, x in zip(cycle.beat.times, cycle.beat.states, strict=True)
-    ]

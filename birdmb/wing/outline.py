@@ -1,11 +1,13 @@
 """Points to draw a wing by: edges, bones, feathers, chords and the lifting line."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import cast
 
 import numpy as np
 
-from birdmb._typing import FloatArray
+from birdmb._typing import ComplexArray, FloatArray
 from birdmb.errors import StateError
 from birdmb.topology import Bird, Discretisation
 from birdmb.wing.arrays import WingArrays, wing_arrays
@@ -49,19 +51,35 @@ class WingOutline:
         chords[0, :, 1] = 0.0
         return _between(chords)
 
-    @property
-    def area_across(self) -> float:
-        """Part of the wing's area that lies across the plane of symmetry, in the other wing's half.
 
-        Without the gap over the body. Along the chords exact, between them by the mean of
-        neighbouring ones.
-        """
-        front, back = self.chords[:, 0, 1], self.chords[:, 1, 1]
-        lower, upper = np.minimum(front, back), np.maximum(front, back)
-        extent = np.where(upper > lower, upper - lower, 1.0)
-        part = np.where(lower < 0.0, np.where(upper <= 0.0, 1.0, -lower / extent), 0.0)
-        areas = _areas(_between(self.chords))
-        return float(np.sum(areas * 0.5 * (part[:-1] + part[1:])) / np.sum(areas))
+def areas_across(
+    wing: WingArrays, angles: FloatArray, discretisation: Discretisation
+) -> FloatArray:
+    """Parts (K,) of the wing's area across the plane of symmetry, in the other wing's half.
+
+    At `angles` (K, A) rad. Without the gap over the body. Along the chords exact, between them by
+    the mean of neighbouring ones.
+
+    Raises:
+        StateError: an edge of the wing has no extent.
+    """
+    parts = np.zeros(len(angles))
+    for k, at in enumerate(angles):
+        leading, trailing = wing_edges(wing, at.astype(complex))
+        # Rounded edges, and chords between them, are within the hull of the edges' vertices.
+        if min(leading[:, 1].real.min(), trailing[:, 1].real.min()) + wing.root[1] < 0.0:
+            with _extent_told():
+                parts[k] = _area_across(wing.root + _chords(leading, trailing, discretisation)[0])
+    return parts
+
+
+def _area_across(chords: FloatArray) -> float:
+    front, back = chords[:, 0, 1], chords[:, 1, 1]
+    lower, upper = np.minimum(front, back), np.maximum(front, back)
+    extent = np.where(upper > lower, upper - lower, 1.0)
+    part = np.where(lower < 0.0, np.where(upper <= 0.0, 1.0, -lower / extent), 0.0)
+    areas = _areas(_between(chords))
+    return float(np.sum(areas * 0.5 * (part[:-1] + part[1:])) / np.sum(areas))
 
 
 def _between(chords: FloatArray) -> FloatArray:
@@ -84,8 +102,14 @@ def wing_outline(
     Raises:
         StateError: an edge of the wing has no extent.
     """
-    try:
+    with _extent_told():
         return _outline(wing, angles, discretisation)
+
+
+@contextmanager
+def _extent_told() -> Iterator[None]:
+    try:
+        yield
     except ZeroDivisionError:
         raise StateError(
             "two neighbouring points of the wing's edge coincide; give the feathers other lengths, "
@@ -99,19 +123,13 @@ def _outline(wing: WingArrays, angles: FloatArray, discretisation: Discretisatio
     bones = skeleton(wing, still)
     roots, tips = feather_ends(wing, bones, still)
     front = leading_edge(wing, bones, tips[-1])
-    leading, trailing = wing_edges(wing, still)
-    stations = 2 * discretisation.elements
     edges = front.real.copy(), tips.real.copy()
-    if discretisation.scheme == "one-step":
-        pairs, _ = one_step_line(leading, trailing, stations)
-    else:
-        pairs = orthogonal_line(leading, trailing, stations, discretisation.rounding)
+    if discretisation.scheme != "one-step":
         edges = (
             _rounded(edges[0], discretisation.rounding),
             _rounded(edges[1], discretisation.rounding),
         )
-    borders = [0, *range(1, stations, 2)]
-    chords = np.stack([pairs.leading[borders].real, pairs.trailing[borders].real], axis=1)
+    chords, converged = _chords(*wing_edges(wing, still), discretisation)
     return WingOutline(
         leading=wing.root + edges[0],
         trailing=wing.root + edges[1],
@@ -119,8 +137,22 @@ def _outline(wing: WingArrays, angles: FloatArray, discretisation: Discretisatio
         feathers=wing.root + np.stack([roots.real, tips.real], axis=1),
         line=wing.root + 0.75 * chords[:, 0] + 0.25 * chords[:, 1],
         chords=wing.root + chords,
-        converged=bool(pairs.converged),
+        converged=converged,
     )
+
+
+def _chords(
+    leading: ComplexArray, trailing: ComplexArray, discretisation: Discretisation
+) -> tuple[FloatArray, bool]:
+    """Chords (N + 1, 2, 3) m at the borders of the elements, and whether they were found."""
+    stations = 2 * discretisation.elements
+    if discretisation.scheme == "one-step":
+        pairs, _ = one_step_line(leading, trailing, stations)
+    else:
+        pairs = orthogonal_line(leading, trailing, stations, discretisation.rounding)
+    borders = [0, *range(1, stations, 2)]
+    chords = np.stack([pairs.leading[borders].real, pairs.trailing[borders].real], axis=1)
+    return chords, bool(pairs.converged)
 
 
 def _rounded(vertices: FloatArray, rounding: float) -> FloatArray:

@@ -151,3 +151,9 @@ def velocity_at(stack: StackedShapes, k: int, rates: FloatArray) -> FloatArray:
         if more != 0.0:
             velocity += more * stack.velocity_per_rate[k, m]
     return velocity
+
+
+def every_second_shape(stack: StackedShapes) -> StackedShapes:
+    """The stack of every second shape, the first included."""
+    halved = StackedShapes._make(array[::2].copy() for array in stack)
+    return halved._replace(singly=stack.singly)

@@ -28,12 +28,13 @@ def outcome(value):
     result |= {"x0": dict.fromkeys(STATES, value), "monodromy": np.eye(4).tolist()}
     result |= {"stability": "stable", "integrator": "explicit", "trimmed": {}, "warning": ""}
     result |= {"flight": "forwards", "sensitivity": {}, "state_scale": [10.0, 2.0, 1.0, 0.2]}
+    result |= {"orbit": None, "method": "shooting", "method_reason": "asked for"}
     return Outcome(result, "", "cold", 0.5)
 
 
 def whose():
     """What a study of the coarse bird is made of."""
-    return identity(coarse_bird(), QUICK, Search(1e-9, 50, 1, "newton"), None)
+    return identity(coarse_bird(), QUICK, Search(1e-9, 1e-7, 50, None, "auto", "line-search"), None)
 
 
 GRID = Grid({MASS: (1.1, 1.2, 1.3)})
@@ -90,7 +91,7 @@ STATEMENTS = [
     "alter table points drop column seconds",
     "alter table points rename column result to outcome",
     "pragma user_version = 2",
-    "pragma user_version = 4",
+    "pragma user_version = 5",
     "pragma application_id = 7",
 ]
 

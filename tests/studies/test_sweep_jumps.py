@@ -10,7 +10,7 @@ import birdmb
 from birdmb.studies.sweeps import Trimming, figures, sweep
 from birdmb.studies.sweeps.grid import Grid
 from birdmb.studies.sweeps.jumps import jumps, neighbours_apart
-from birdmb.studies.sweeps.point import Guess
+from birdmb.studies.sweeps.point import Guess, described
 from birdmb.studies.sweeps.verdicts import jump_lines, verdict_lines
 
 from .sweeping import AMPLITUDE, MASS, QUICK, Inline, coarse_bird
@@ -31,8 +31,8 @@ class Derailed(Inline):
         if task.values[MASS] == self._mass and task.guess is not None:
             model = task.model(task.bird.with_values(task.values))
             falling = birdmb.find_limit_cycle(model, list(FALLING.values()))
-            x0 = dict(zip(FALLING, falling.x0.tolist(), strict=True))
-            guess = Guess(task.guess.place, x0, falling.monodromy.tolist(), {})
+            flight = described(falling) | {"trimmed": {}, "sensitivity": {}}
+            guess = Guess(task.guess.place, task.guess.values, flight)
             task = replace(task, guess=guess)
         return super().submit(function, task)
 

@@ -15,8 +15,13 @@ import birdmb
 from birdmb.orbits import ArgumentError
 from birdmb.studies.sweeps import Study, SweepError, Trimming, figures, sweep
 from birdmb.studies.sweeps.grid import Grid, parent
-from birdmb.studies.sweeps.point import Outcome, _one_thread, described
+from birdmb.studies.sweeps.point import (
+    KEPT_FOR_NEIGHBOURS,
+    Outcome,
+    described,
+)
 from birdmb.studies.sweeps.run import _Filling
+from birdmb.studies.sweeps.threads import one_thread
 from birdmb.studies.sweeps.verdicts import verdict_lines
 
 from .sweeping import AMPLITUDE, GRID, IMPOSSIBLE, MASS, QUICK, Inline, coarse_bird
@@ -118,7 +123,7 @@ def test_compliant_birds_have_the_same_bits_here_and_in_two_processes(ibis_compl
 
 
 @pytest.mark.long
-def test_warm_points_need_few_flows(ibis_compliant, tmp_path, monkeypatch):
+def test_warm_points_that_are_shot_need_few_flows(ibis_compliant, tmp_path, monkeypatch):
     """About seven steps, 12 flows for the Jacobian, 7 for its errors, 1 for each parameter."""
     bird = ibis_compliant.with_values({"wing.discretisation.elements": 4})
     counts, flow = [], birdmb.MultibodyModel.flow
@@ -137,6 +142,7 @@ def test_warm_points_need_few_flows(ibis_compliant, tmp_path, monkeypatch):
         store=tmp_path / "s.db",
         executor=Inline(),
         model=partial(birdmb.MultibodyModel, steps_per_beat=60),
+        method="shooting",
         on_point=begun,
     )
     data = study.to_xarray()
@@ -148,7 +154,7 @@ def test_warm_points_need_few_flows(ibis_compliant, tmp_path, monkeypatch):
         model = partial(birdmb.MultibodyModel, steps_per_beat=60)(
             bird.with_joint("shoulder.flap", stiffness=float(data[f"{FLAP}.stiffness"][place]))
         )
-        cold = birdmb.find_limit_cycle(model)
+        cold = birdmb.find_limit_cycle(model, method="shooting")
         warm = data.isel({f"{FLAP}.stiffness": place})
         np.testing.assert_allclose(warm.monodromy, cold.monodromy, atol=1e-6)
         assert np.abs(warm.largest_modulus - np.abs(cold.multipliers[0])) < 1e-8
@@ -197,7 +203,7 @@ def test_points_after_many_that_fail_are_found_their_neighbour_at_once():
         def submit(self, _function, task):
             future = Future()
             found = task.values[MASS] == 1.0
-            result = {"x0": {}, "monodromy": [], "trimmed": {}} if found else None
+            result = dict.fromkeys(KEPT_FOR_NEIGHBOURS) if found else None
             future.set_result(Outcome(result, "none", "cold", 0.0))
             starts.append(task.guess and task.guess.place)
             return future
@@ -326,8 +332,8 @@ def test_threads_lift_the_limit_on_linear_algebra_once_the_last_has_ended():
         return [each["num_threads"] for each in threadpool_info() if each["user_api"] == "blas"]
 
     before = threads()
-    with _one_thread():
-        with _one_thread():
+    with one_thread():
+        with one_thread():
             assert set(threads()) <= {1}
         assert set(threads()) <= {1}
     assert threads() == before

@@ -115,7 +115,7 @@ def test_a_guess_changes_the_way_and_not_the_end(near_neutral, quick):
     neighbour = birdmb.trim_flight(
         near_neutral.with_values({"shoulder.flap.amplitude_deg": 41.0}), model=quick
     )
-    guess = TrimGuess(neighbour.values, neighbour.cycle.x0)
+    guess = TrimGuess(neighbour.values, neighbour.cycle)
     from_guess = birdmb.trim_flight(near_neutral, model=quick, guess=guess)
     alone = birdmb.trim_flight(near_neutral, model=quick)
     assert from_guess.values == pytest.approx(alone.values, abs=1e-5)

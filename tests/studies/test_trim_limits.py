@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from birdmb.errors import OrbitError
-from birdmb.studies.trim_equations import _give_up_creeping
+from birdmb.studies.trim_equations import give_up_creeping
 from birdmb.studies.trim_search import Trial
 
 
@@ -21,6 +21,6 @@ def test_a_search_that_takes_tiny_steps_is_given_up(damping, creeps):
     step = SimpleNamespace(damping=damping, number=3, residual=0.5)
     if creeps:
         with pytest.raises(OrbitError, match="creeps after 3 steps"):
-            _give_up_creeping(step)
+            give_up_creeping(step)
     else:
-        _give_up_creeping(step)
+        give_up_creeping(step)

@@ -8,20 +8,26 @@ import numpy as np
 import pytest
 
 import birdmb
+from birdmb.models.loads import LoadsAlong
 from birdmb.studies import assess_validity
 from birdmb.wing.outline import wing_outline
 
 
 def with_circulation(cycle, changes):
     """The cycle with the effective angle (rad) put to given values at (time, element)."""
-    loads = list(cycle.beat.loads)
-    for (k, e), angle in changes.items():
-        at = loads[k]
-        circulation = at.circulation.copy()
-        circulation[e] = np.pi * at.chord[e] * at.speed[e] * angle
-        loads[k] = replace(at, circulation=circulation)
+    stack = cycle.beat.loads_along.stack
+    circulation = stack.circulation.copy()
+    for at, angle in changes.items():
+        circulation[at] = np.pi * stack.chord[at] * stack.speed[at] * angle
+    return with_loads(cycle, circulation=circulation)
+
+
+def with_loads(cycle, **changes):
+    """The cycle with other loads over its beat."""
+    stack = cycle.beat.loads_along.stack._replace(**changes)
     changed = copy.copy(cycle)
-    changed.__dict__["beat"] = replace(cycle.beat, loads=tuple(loads))
+    along = LoadsAlong(stack, cycle.model.airframe)
+    changed.__dict__["beat"] = replace(cycle.beat, loads_along=along)
     return changed
 
 
@@ -107,10 +113,9 @@ def test_just_within_the_limit_is_silent(rigid_cycle):
 
 def test_geometric_angle_alone_does_not_warn(rigid_cycle):
     """The section meets the wind after the downwash."""
-    loads = list(rigid_cycle.beat.loads)
-    loads[11] = replace(loads[11], angle_of_attack=loads[11].angle_of_attack + 0.5)
-    changed = copy.copy(rigid_cycle)
-    changed.__dict__["beat"] = replace(rigid_cycle.beat, loads=tuple(loads))
+    geometric = rigid_cycle.beat.loads_along.stack.angle_of_attack.copy()
+    geometric[11] += 0.5
+    changed = with_loads(rigid_cycle, angle_of_attack=geometric)
     assert assess_validity(changed).warnings == ()
 
 

@@ -21,9 +21,9 @@ from birdmb.studies.sweeps.point import Outcome
 from birdmb.text import on_one_line
 
 APPLICATION = 0x62697264  # "bird": tells a study from any other SQLite file
-FORMAT = 3
+FORMAT = 4
 COLUMNS = "place, parameters, status, reason, start, result, seconds, finished, run"
-_IDENTITY = {"birdmb", "fingerprint", "bird", "model", "search", "trim"}
+_IDENTITY = {"birdmb", "fingerprint", "bird", "model", "search", "trim", "keep_to_sheet"}
 
 
 @dataclass(frozen=True)

@@ -111,3 +111,36 @@ def jumps(
     back = np.empty_like(order)
     back[order] = np.arange(order.size)
     return np.asarray(np.moveaxis(marked[back], 0, axis))
+
+
+def unexplained(
+    here: Mapping[str, Any],
+    there: Mapping[str, Any],
+    steps: Mapping[str, float],
+    bounds: Mapping[str, Sequence[float]],
+) -> bool:
+    """Whether steps of some parameters do not explain how the flights at both ends differ.
+
+    As `jumps` marks them, along several parameters at once.
+
+    Args:
+        here, there: results of the two points.
+        steps: from the one to the other, by the parameters' names.
+        bounds: (lowest, highest) of the values that flights are trimmed by, by name.
+    """
+    if here["x0"].keys() != there["x0"].keys():
+        return False
+    allowed = 0.0
+    for name, step in steps.items():
+        known = [end["sensitivity"][name] for end in (here, there) if name in end["sensitivity"]]
+        if not known:
+            return False
+        allowed += _EXPLAINED * abs(step) * max(float(np.abs(each).max()) for each in known)
+    sizes = dict(zip(here["x0"], here["state_scale"], strict=True))
+    sizes |= {name: high - low for name, (low, high) in bounds.items()}
+    ends = [end["x0"] | end["trimmed"] for end in (here, there)]
+    apart = {name: ends[1][name] - ends[0][name] for name in sizes}
+    turn = 2.0 * np.pi
+    apart["theta"] -= turn * round(apart["theta"] / turn)
+    difference = max(abs(apart[name]) / size for name, size in sizes.items())
+    return difference > max(allowed, _ROUND_OFF)

@@ -4,29 +4,36 @@ from __future__ import annotations
 
 import math
 import textwrap
-import threading
 import time
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from typing import Any, cast
 
-from threadpoolctl import threadpool_limits
+import numpy as np
 
+from birdmb._typing import FloatArray
 from birdmb.errors import BirdmbError, OrbitError, StateError
-from birdmb.models import FlightCycle, MultibodyModel
+from birdmb.models import FlightCycle
 from birdmb.models.wing_model import WingModel
-from birdmb.orbits import find_limit_cycle
-from birdmb.orbits.problem import HasInitialGuess
-from birdmb.studies.cycles import ModelFactory
+from birdmb.orbits import Model, NotSmoothError, find_limit_cycle
+from birdmb.orbits.collocation import FIRST_NODES
+from birdmb.orbits.problem import HasGuessedPath, HasInitialGuess, HasRates
+from birdmb.studies.cycles import ModelFactory, path_for_search, shot_near
 from birdmb.studies.sweeps.grid import Value
 from birdmb.studies.sweeps.sensitivity import sensitivities
 from birdmb.studies.sweeps.settings import Search, Trimming
+from birdmb.studies.sweeps.sheets import on_sheet
+from birdmb.studies.sweeps.threads import one_thread
 from birdmb.studies.trim import TrimGuess, trim_flight
 from birdmb.studies.validity import assess_validity
 from birdmb.topology import Bird
 
 COLD = "cold"
+KEPT_FOR_NEIGHBOURS = (
+    *("x0", "monodromy", "trimmed", "method", "orbit", "state_scale", "sensitivity"),
+)
+_DIGITS = 6  # after the point, of states in units of their scale
 _LONGEST_REASON = 600  # characters; foreign errors may bring a traceback
 
 
@@ -36,15 +43,25 @@ class Guess:
 
     Attributes:
         place: the neighbour's, as the store writes it.
-        x0: its state at t = 0, by name.
-        monodromy: derivative (n, n) of its state after a beat with respect to x0.
-        trimmed: values of the parameters that it was trimmed by, by name, if it was.
+        values: of the parameters there, by name.
+        flight: what the store keeps of it, as `described`, by the names KEPT_FOR_NEIGHBOURS.
     """
 
     place: str
-    x0: Mapping[str, float]
-    monodromy: Sequence[Sequence[float]]
-    trimmed: Mapping[str, float]
+    values: Mapping[str, Value]
+    flight: Mapping[str, Any]
+
+    @property
+    def state_names(self) -> tuple[str, ...]:
+        """Names of its n states."""
+        return tuple(self.flight["x0"])
+
+    @property
+    def orbit(self) -> FloatArray:
+        """States (K, n) at K even instants of its beat; K = 1 if it was shot."""
+        if self.flight["orbit"] is None:
+            return np.array([list(self.flight["x0"].values())])
+        return np.array(self.flight["orbit"]) * self.flight["state_scale"]
 
 
 @dataclass(frozen=True)
@@ -58,6 +75,7 @@ class Task:
     steps: Mapping[str, float]
     guess: Guess | None
     trimming: Trimming | None
+    keep_to_sheet: bool = False
 
 
 @dataclass(frozen=True)
@@ -87,18 +105,27 @@ def compute(task: Task) -> Outcome:
     began = time.perf_counter()
     start, result, reason = COLD, None, ""
     try:
-        with _one_thread():
-            if task.trimming is None:
-                cycle, start = _found(task)
-                trimmed = dict[str, float]()
-            else:
-                cycle, trimmed, start = _trimmed(task, task.trimming)
-            result = described(cycle) | {"trimmed": trimmed, **_answers(task, cycle, trimmed)}
+        with one_thread():
+            result, start = on_sheet(task, _flight) if task.keep_to_sheet else _flight(task)
     except KeyboardInterrupt:
         raise
     except BaseException as error:
         start, reason = COLD, _told(error)
     return Outcome(result, reason, start, time.perf_counter() - began)
+
+
+def _flight(task: Task) -> tuple[dict[str, Any], str]:
+    """What is kept of the flight of a task, and where the search for it succeeded from."""
+    if task.trimming is None:
+        cycle, start = _found(task)
+        trimmed = dict[str, float]()
+    else:
+        cycle, trimmed, start = _trimmed(task, task.trimming)
+    result = described(cycle) | {"trimmed": trimmed}
+    result["sensitivity"] = sensitivities(
+        cycle, task.bird, task.model, task.values, task.steps, task.trimming, trimmed
+    )
+    return result, start
 
 
 def _told(error: BaseException) -> str:
@@ -108,39 +135,15 @@ def _told(error: BaseException) -> str:
     return f"{type(error).__name__}: {text}" if text else type(error).__name__
 
 
-_counting = threading.Lock()
-_computing = 0
-_limits: threadpool_limits | None = None
-
-
-@contextmanager
-def _one_thread() -> Iterator[None]:
-    """One thread of linear algebra within: how many share a sum decides its last bits.
-
-    The limit is the whole process's. Where threads compute points side by side, the first one that
-    begins sets it and the last one that ends lifts it.
-    """
-    global _computing, _limits  # noqa: PLW0603 - the limit that they count is global, too
-    with _counting:
-        _computing += 1
-        if _computing == 1:
-            _limits = threadpool_limits(1)
-    try:
-        yield
-    finally:
-        with _counting:
-            _computing -= 1
-            if _computing == 0 and _limits is not None:
-                _limits.restore_original_limits()
-                _limits = None
-
-
 def prepare(bird: Bird, model: ModelFactory) -> None:
-    """Load or compile the kernels, by flying a beat; a bird that cannot is left to its points."""
+    """Load or compile the kernels, along a guess; a bird that cannot is left to its points."""
     with suppress(Exception):
-        flying = model(bird)
+        flying = cast("WingModel", model(bird))
         if isinstance(flying, HasInitialGuess):
-            flying.flow(flying.initial_guess(), 0.0, bird.period)
+            flying.loads(0.0, flying.initial_guess())
+        if isinstance(flying, HasGuessedPath) and isinstance(flying, HasRates):
+            times = bird.period * np.arange(FIRST_NODES) / FIRST_NODES
+            flying.rates(times, flying.guess_along(times))
 
 
 def _found(task: Task) -> tuple[FlightCycle, str]:
@@ -148,20 +151,42 @@ def _found(task: Task) -> tuple[FlightCycle, str]:
     search = asdict(task.search)
     guess = task.guess
     # A varied mode of a joint may have given the neighbour other states.
-    if guess is not None and tuple(guess.x0) == model.state_names:
+    if guess is None or guess.state_names != model.state_names:
+        return cast("FlightCycle", find_limit_cycle(model, **search)), COLD
+    if guess.flight["method"] == "collocation":
+        with suppress(NotSmoothError):
+            return _collocated_near(model, guess, search)
+    else:
         with suppress(OrbitError, StateError):
-            x0 = list(guess.x0.values())
             # Of several segments only the product is kept.
-            known = [guess.monodromy] if task.search.segments in {None, 1} else None
-            cycle = find_limit_cycle(model, x0, jacobian_guess=known, **search)
-            return cast("FlightCycle", cycle), guess.place
+            known = [guess.flight["monodromy"]] if search["segments"] in {None, 1} else None
+            found = shot_near(model, guess.orbit, known, search)
+            return cast("FlightCycle", found), guess.place
     return cast("FlightCycle", find_limit_cycle(model, **search)), COLD
+
+
+def _collocated_near(
+    model: Model, guess: Guess, search: Mapping[str, Any]
+) -> tuple[FlightCycle, str]:
+    """The cycle of a model by collocation alone, and what it was found from.
+
+    Beside a smooth orbit there is none that only shooting would find, and its vain search takes a
+    hundred times as long.
+    """
+    collocation = {**search, "method": "collocation"}
+    try:
+        found, start = find_limit_cycle(model, guess.orbit, **collocation), guess.place
+    except NotSmoothError:
+        raise
+    except (OrbitError, StateError):
+        found, start = find_limit_cycle(model, **collocation), COLD
+    return cast("FlightCycle", found), start
 
 
 def _trimmed(task: Task, trimming: Trimming) -> tuple[FlightCycle, dict[str, float], str]:
     guess, near = task.guess, None
     if guess is not None:
-        near = TrimGuess(guess.trimmed, list(guess.x0.values()))
+        near = TrimGuess(guess.flight["trimmed"], guess.orbit)
     trim = trim_flight(
         task.bird.with_values(task.values),
         trimming.parameters,
@@ -176,19 +201,13 @@ def _trimmed(task: Task, trimming: Trimming) -> tuple[FlightCycle, dict[str, flo
     return trim.cycle, trim.values, start
 
 
-def _answers(task: Task, cycle: FlightCycle, trimmed: Mapping[str, float]) -> dict[str, Any]:
-    found = sensitivities(
-        cycle, task.bird, task.model, task.values, task.steps, task.trimming, trimmed
-    )
-    return {"sensitivity": found, "state_scale": cycle.state_scale.tolist()}
-
-
 def described(cycle: FlightCycle) -> dict[str, Any]:
     """What is kept of a limit cycle, fit for JSON: units as in `FlightCycle`, `None` for NaN."""
     model = cast("WingModel", cycle.model)
     validity = assess_validity(cycle)
     numbers = {
         "residual": cycle.residual,
+        "state_error": cycle.state_error,
         "integration_error": cycle.integration_error,
         "energy_imbalance": cycle.energy_imbalance,
         "mean_speed": cycle.mean_speed,
@@ -203,10 +222,16 @@ def described(cycle: FlightCycle) -> dict[str, Any]:
         "largest_tail_angle": validity.largest_tail_angle,
         "period": cycle.period,
         "iterations": len(cycle.iterations) - 1,
-        "steps_per_beat": model.steps_per_beat,
     }
+    collocated = cycle.method == "collocation"
     return {
         **{name: value if math.isfinite(value) else None for name, value in numbers.items()},
+        # Integrated are only cycles that were shot.
+        "nodes": cycle.nodes,
+        "steps_per_beat": None if collocated else model.steps_per_beat,
+        "integrator": "" if collocated else model.integration_method,
+        "method": cycle.method,
+        "method_reason": cycle.method_reason,
         "x0": dict(zip(cycle.state_names, cycle.x0.tolist(), strict=True)),
         "multiplier_real": cycle.multipliers.real.tolist(),
         "multiplier_imag": cycle.multipliers.imag.tolist(),
@@ -215,6 +240,16 @@ def described(cycle: FlightCycle) -> dict[str, Any]:
         "monodromy": cycle.monodromy.tolist(),
         "stability": cycle.stability,
         "flight": "forwards" if cycle.why_no_flight is None else "backwards",
-        "integrator": model.integration.method if isinstance(model, MultibodyModel) else "explicit",
+        "state_scale": cycle.state_scale.tolist(),
+        "orbit": _orbit(cycle) if collocated else None,
         "warning": " ".join(validity.warnings),
     }
+
+
+def _orbit(cycle: FlightCycle) -> list[list[float]]:
+    """States (K, n) of a collocated cycle in units of their scale: a guess for its neighbours.
+
+    As few as a search from them begins with, and rounded: it only has to begin nearby.
+    """
+    path = path_for_search(cycle) / cycle.state_scale
+    return [[round(value, _DIGITS) for value in state] for state in path.tolist()]

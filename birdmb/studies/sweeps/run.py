@@ -13,13 +13,13 @@ from typing import Any
 
 from birdmb.models import MultibodyModel
 from birdmb.orbits.newton import Damping
-from birdmb.orbits.search import SearchMethod
+from birdmb.orbits.search import ACCURACY, TOLERANCE, SearchMethod
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.relevance import check_relevant
 from birdmb.studies.sweeps.checks import check_processes, check_trimming
 from birdmb.studies.sweeps.dispatch import on_executor, on_processes
 from birdmb.studies.sweeps.grid import Grid, Place, Value, parent
-from birdmb.studies.sweeps.point import Guess, Outcome, Task
+from birdmb.studies.sweeps.point import KEPT_FOR_NEIGHBOURS, Guess, Outcome, Task
 from birdmb.studies.sweeps.settings import Search, Trimming, identity
 from birdmb.studies.sweeps.store import Store, place_text
 from birdmb.studies.sweeps.study import Study
@@ -54,11 +54,13 @@ def sweep(
     workers: int | None = None,
     model: ModelFactory = MultibodyModel,
     trim: Trimming | None = None,
-    tolerance: float = 1e-9,
+    tolerance: float = TOLERANCE,
+    accuracy: float = ACCURACY,
     max_iterations: int = 50,
     segments: int | None = None,
     method: SearchMethod = "auto",
     damping: Damping = "line-search",
+    keep_to_sheet: bool = False,
     on_point: Callable[[Finished], None] | None = None,
 ) -> Study:
     """Find the limit cycles at all combinations of some parameters' values, in parallel.
@@ -83,8 +85,11 @@ def sweep(
             them.
         trim: trims the flight of every point, as to level flight, by parameters that are not
             varied; without it, flights climb and sink as they do.
-        tolerance, max_iterations, segments, method, damping: of each search, as for
+        tolerance, accuracy, max_iterations, segments, method, damping: of each search, as for
             `find_limit_cycle`.
+        keep_to_sheet: where a flight is not on the sheet of its neighbour's (see `sheet_jump` of
+            `Study.to_xarray`), or none is found, follow the neighbour's by smaller steps of the
+            parameters; where its sheet ends, the point has failed.
         on_point: called after every point that has been stored, and once before the first of them.
 
     Raises:
@@ -95,14 +100,15 @@ def sweep(
             that is varied or trimmed has no effect on the model.
     """
     grid = Grid.of(bird, vary)
-    search = Search(tolerance, max_iterations, segments, method, damping)
+    search = Search(tolerance, accuracy, max_iterations, segments, method, damping)
     if trim is not None:
         check_trimming(bird, grid, trim)
     check_relevant(bird, {**grid.parameters, **(trim.parameters if trim else {})}, model)
     if executor is None:
         check_processes(bird, model, workers)
-    with Store.opened(store, identity(bird, model, search, trim), grid) as opened:
-        filling = _Filling(bird, model, search, trim, grid, opened, on_point)
+    made_of = identity(bird, model, search, trim, keep_to_sheet=keep_to_sheet)
+    with Store.opened(store, made_of, grid) as opened:
+        filling = _Filling(bird, model, search, trim, grid, opened, on_point, keep_to_sheet)
         if filling.missing:
             filling.run(executor, workers)
     return Study.open(store)
@@ -120,7 +126,9 @@ class _Filling:
         grid: Grid,
         store: Store,
         on_point: Callable[[Finished], None] | None,
+        keep_to_sheet: bool = False,
     ) -> None:
+        self._keep_to_sheet = keep_to_sheet
         self._bird, self._model = bird, model
         self._search, self._trimming = search, trimming
         self._grid, self._store, self._on_point = grid, store, on_point
@@ -173,6 +181,7 @@ class _Filling:
             steps=self._grid.steps(place),
             guess=self._guess(place),
             trimming=self._trimming,
+            keep_to_sheet=self._keep_to_sheet,
         )
 
     def _guess(self, place: Place) -> Guess | None:
@@ -181,7 +190,8 @@ class _Filling:
             return None
         result = self._points[before].result
         assert result is not None
-        return Guess(place_text(before), result["x0"], result["monodromy"], result["trimmed"])
+        kept = {name: result[name] for name in KEPT_FOR_NEIGHBOURS}
+        return Guess(place_text(before), self._grid.values(before), kept)
 
     def _nearest_flight(self, place: Place | None) -> Place | None:
         """The place, or the first of its predecessors that has a flight.

@@ -4,36 +4,41 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from contextlib import suppress
-from typing import cast
+from typing import TypeAlias, cast
 
 import numpy as np
 
 from birdmb._typing import FloatArray
 from birdmb.models import FlightCycle
 from birdmb.models.wing_model import WingModel
-from birdmb.studies.cycles import ModelFactory
+from birdmb.orbits.collocation import fewer_nodes
+from birdmb.studies.cycles import KeptModels, ModelFactory, path_at_nodes
 from birdmb.studies.sweeps.grid import Value
 from birdmb.studies.sweeps.settings import Trimming
+from birdmb.studies.trim_collocation import CollocatedTrim
 from birdmb.studies.trim_equations import TrimEquations
 from birdmb.topology import Bird
 
-_Residual = Callable[[Mapping[str, Value]], FloatArray]
+_FEWEST_NODES = 11
+
+_Values: TypeAlias = Mapping[str, Value]
+_Residual: TypeAlias = Callable[[_Values], FloatArray]
 
 
 def sensitivities(
     cycle: FlightCycle,
     bird: Bird,
     model: ModelFactory,
-    values: Mapping[str, Value],
+    values: _Values,
     steps: Mapping[str, float],
     trimming: Trimming | None,
     trimmed: Mapping[str, float],
 ) -> dict[str, list[float]]:
     """Derivatives of a flight by parameters: of its state at t = 0, then of what it is trimmed by.
 
-    By the implicit function theorem: with F(z, p) = 0 for closure (and targets), dz/dp is
-    -F_z^-1 F_p. F_z is the monodromy minus one or, trimmed, found by differences; F_p takes a
-    flow for each parameter, with an error of first order in the step.
+    By the implicit function theorem: with F(z, p) = 0 for the orbit (and targets), dz/dp is
+    -F_z^-1 F_p. F is collocation's where the cycle is collocated, else the closure; F_p is a
+    difference for each parameter, with an error of first order in the step.
 
     Args:
         cycle: the flight.
@@ -47,58 +52,98 @@ def sensitivities(
         By name of a parameter, (n + k,): in units of the state scale, and of the distance between
         the bounds, by the parameter's unit. Without those parameters whose step leads to no flight.
     """
-    if trimming is None:
-        size = cycle.x0.size
-        matrix = (cycle.monodromy - np.eye(size)) * cycle.state_scale / cycle.state_scale[:, None]
-        residual: _Residual = _closure(cycle, bird, model)
+    if not steps:
+        return {}
+    names = () if trimming is None else tuple(trimming.parameters)
+    bounds = [] if trimming is None else [trimming.parameters[name] for name in names]
+    low, high = np.array(bounds, dtype=float).reshape(-1, 2).T
+    point = np.array([trimmed[name] for name in names])
+    targets = {} if trimming is None else trimming.targets
+
+    here = values
+
+    def models(values: _Values) -> KeptModels:
+
+        def model_at(point: FloatArray) -> WingModel:
+            by_name = dict(zip(names, point.tolist(), strict=True))
+            if values is here and (by_name == trimmed or not names):
+                return cast("WingModel", cycle.model)
+            return cast("WingModel", model(bird.with_values({**values, **by_name})))
+
+        return KeptModels(model_at)
+
+    n = cycle.x0.size
+    if cycle.method == "collocation":
+        residual, matrix = _collocation(cycle, models, values, (low, high), targets, point)
+    elif trimming is None:
+        matrix = (cycle.monodromy - np.eye(n)) * cycle.state_scale / cycle.state_scale[:, None]
+        residual = _closure(cycle, models)
     else:
-        residual, matrix = _trim_equations(cycle, bird, model, values, trimming, trimmed)
+        residual, matrix = _shooting(cycle, models, values, (low, high), targets, point)
+    kept = np.r_[:n, len(matrix) - point.size : len(matrix)]
+    left = residual(values) if cycle.method == "collocation" else 0.0
     found = {}
     for name, step in steps.items():
         # Whatever fails here, such as a step into what is no bird: the flight itself is found.
         with suppress(Exception):
             there = {**values, name: cast("float", values[name]) + step}
-            response = -np.linalg.solve(matrix, residual(there) / step)
+            response = -np.linalg.solve(matrix, (residual(there) - left) / step)[kept]
             if np.isfinite(response).all():
                 found[name] = response.tolist()
     return found
 
 
-def _closure(cycle: FlightCycle, bird: Bird, model: ModelFactory) -> _Residual:
+def _collocation(
+    cycle: FlightCycle,
+    models: Callable[[_Values], KeptModels],
+    values: _Values,
+    bounds: tuple[FloatArray, FloatArray],
+    targets: Mapping[str, float],
+    point: FloatArray,
+) -> tuple[_Residual, FloatArray]:
+    """Residual of orbit and targets with other values, and its Jacobian.
+
+    On few nodes: what the orbit errs by there is the same with other values.
+    """
+    path = path_at_nodes(cycle, max(_FEWEST_NODES, fewer_nodes(fewer_nodes(cycle.nodes or 1))))
+
+    def equations(values: _Values) -> CollocatedTrim:
+        return CollocatedTrim(models(values), *bounds, targets, len(path))
+
+    at_point = equations(values)
+    u = at_point.pack(path, point)
+    matrix = at_point.jacobian(u)
+
+    def residual(there: _Values) -> FloatArray:
+        return (at_point if there is values else equations(there)).residual(u)
+
+    return residual, matrix
+
+
+def _closure(cycle: FlightCycle, models: Callable[[_Values], KeptModels]) -> _Residual:
     """Gap of the flight's state after a beat, with other values, in units of the state scale."""
 
-    def gap(values: Mapping[str, Value]) -> FloatArray:
-        flying = cast("WingModel", model(bird.with_values(values)))
+    def gap(values: _Values) -> FloatArray:
+        flying = models(values)(np.empty(0))
         end = flying.flow(cycle.x0, 0.0, flying.bird.period)
         return np.asarray((end - cycle.x0) / cycle.state_scale)
 
     return gap
 
 
-def _trim_equations(
+def _shooting(
     cycle: FlightCycle,
-    bird: Bird,
-    model: ModelFactory,
-    values: Mapping[str, Value],
-    trimming: Trimming,
-    trimmed: Mapping[str, float],
+    models: Callable[[_Values], KeptModels],
+    values: _Values,
+    bounds: tuple[FloatArray, FloatArray],
+    targets: Mapping[str, float],
+    point: FloatArray,
 ) -> tuple[_Residual, FloatArray]:
     """Residual of closure and targets at the trimmed flight, with other values; its Jacobian."""
-    low, high = np.array(list(trimming.parameters.values()), dtype=float).T
-    point = np.array([trimmed[name] for name in trimming.parameters])
+    low, high = bounds
     at = np.concatenate([cycle.x0 / cycle.state_scale, (point - low) / (high - low)])
-    targets = {"climb_rate": trimming.climb_rate}
-    if trimming.speed is not None:
-        targets["speed"] = trimming.speed
 
-    def equations(values: Mapping[str, Value]) -> TrimEquations:
-        varied = bird.with_values(values)
+    def equations(values: _Values) -> TrimEquations:
+        return TrimEquations(models(values), low, high, targets)
 
-        def model_at(point: FloatArray) -> WingModel:
-            by_name = dict(zip(trimming.parameters, point.tolist(), strict=True))
-            return cast("WingModel", model(varied.with_values(by_name)))
-
-        return TrimEquations(model_at, low, high, targets)
-
-    jacobian = equations(values).jacobian(at).toarray()
-    return (lambda there: equations(there).residual(at)), jacobian
+    return (lambda there: equations(there).residual(at)), equations(values).jacobian(at).toarray()

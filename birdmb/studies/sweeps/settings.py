@@ -10,6 +10,7 @@ from importlib.metadata import version
 from typing import Any, get_args
 
 from birdmb.orbits import ArgumentError
+from birdmb.orbits.errors import require_tolerance
 from birdmb.orbits.newton import Damping
 from birdmb.orbits.search import SearchMethod
 from birdmb.studies.cycles import ModelFactory
@@ -24,6 +25,7 @@ class Search:
     """How limit cycles are searched for; see `find_limit_cycle`."""
 
     tolerance: float
+    accuracy: float
     max_iterations: int
     segments: int | None
     method: SearchMethod
@@ -35,8 +37,8 @@ class Search:
             if getattr(self, name) not in get_args(choices):
                 choice = " or ".join(f'"{each}"' for each in get_args(choices))
                 raise ArgumentError(f'{name} must be {choice}, not "{getattr(self, name)}".')
-        if not 0.0 < self.tolerance < math.inf:
-            raise ArgumentError(f"tolerance must be positive and finite, not {self.tolerance}.")
+        require_tolerance("tolerance", self.tolerance)
+        require_tolerance("accuracy", self.accuracy)
         for name in ("max_iterations", "segments"):
             number = getattr(self, name)
             if number is not None and number < 1:
@@ -82,9 +84,20 @@ class Trimming:
         if not 0.0 < self.tolerance < math.inf:
             raise ArgumentError(f"the trim's tolerance must be positive, not {self.tolerance}.")
 
+    @property
+    def targets(self) -> dict[str, float]:
+        """What the flight is trimmed to, m/s, by name."""
+        climb = {"climb_rate": self.climb_rate}
+        return climb if self.speed is None else climb | {"speed": self.speed}
+
 
 def identity(
-    bird: Bird, model: ModelFactory, search: Search, trimming: Trimming | None
+    bird: Bird,
+    model: ModelFactory,
+    search: Search,
+    trimming: Trimming | None,
+    *,
+    keep_to_sheet: bool = False,
 ) -> dict[str, Any]:
     """Everything that results depend on besides the grid, fit for JSON.
 
@@ -97,6 +110,7 @@ def identity(
         "model": model_name(model),
         "search": asdict(search),
         "trim": None if trimming is None else asdict(trimming),
+        "keep_to_sheet": keep_to_sheet,
     }
 
 
@@ -128,7 +142,8 @@ def difference(stored: Mapping[str, Any], asked: Mapping[str, Any]) -> str | Non
 
     "There" is the store.
     """
-    for key, what in (("birdmb", "the version of birdmb"), ("model", "the model")):
+    wholes = ("birdmb", "the version of birdmb"), ("model", "the model")
+    for key, what in (*wholes, ("keep_to_sheet", "keep_to_sheet")):
         if stored[key] != asked[key]:
             return _apart(what, stored[key], asked[key])
     if stored["trim"] != asked["trim"]:

@@ -38,16 +38,18 @@ _NUMBERS = {
     "lost_to_body": ("W", "power lost to the body's drag"),
     "largest_tail_angle": ("rad", "largest angle of attack of the tail"),
     "residual": ("1", "closure error of the orbit, in the units of the states"),
-    "integration_error": ("1", "error of a beat's flow, in units of the state scale"),
+    "state_error": ("1", "error of a collocated orbit, in units of the state scale; 0 if shot"),
+    "integration_error": ("1", "the same, or of a shot one's flow over a beat"),
     "energy_imbalance": ("1", "what a beat leaves over of the energy; a check"),
     "period": ("s", "duration of a wingbeat"),
     "iterations": ("1", "steps of the search"),
-    "steps_per_beat": ("1", "integration steps per wingbeat"),
+    "nodes": ("1", "nodes of a collocated orbit"),
+    "steps_per_beat": ("1", "integration steps per wingbeat of a shot orbit"),
 }
 _BY_MULTIPLIER = ("multiplier_real", "multiplier_imag", "multiplier_error")
 _OTHERS = (
     *("x0", "monodromy", "stability", "flight", "integrator", "trimmed", "warning"),
-    *("sensitivity", "state_scale"),
+    *("sensitivity", "state_scale", "orbit", "method", "method_reason"),
 )
 
 
@@ -102,7 +104,8 @@ class Study:
         Where there is no cycle, or none yet, numbers are NaN and texts empty; states that only some
         points have are NaN at the others. `status` is "found", "failed" or "missing", `failure` the
         reason, `flight` "forwards", or "backwards" for a bird that flies so, on its tail or on its
-        back, `warning` how a cycle leaves the model's validity, `integrator` explicit or implicit,
+        back, `warning` how a cycle leaves the model's validity, `method` "collocation" or
+        "shooting", `method_reason` why the latter, `integrator` explicit or implicit if so,
         `multiplier_error` what the verdict counts (NaN: no bound), `start` the neighbour that the
         search started from. `sheet_jump` is true where the step to the next larger value of the
         parameter `along` does not explain how the flights at both differ
@@ -169,6 +172,8 @@ class Study:
             "flight": {p: r["flight"] for p, r in found.items()},
             "warning": {p: r["warning"] for p, r in found.items()},
             "integrator": {p: r["integrator"] for p, r in found.items()},
+            "method": {p: r["method"] for p, r in found.items()},
+            "method_reason": {p: r["method_reason"] for p, r in found.items()},
         }
         shape = Grid(self.parameters).shape
         texts = {}

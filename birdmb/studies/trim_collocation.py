@@ -1,0 +1,248 @@
+"""A trimmed limit cycle as one collocation system: the orbit and the targets together.
+
+As `birdmb.studies.trim_equations` does by shooting: where a multiplier passes +1 the cycle at given
+parameters folds back, the trimmed flight does not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from birdmb._typing import FloatArray
+from birdmb.errors import OrbitError, StateError
+from birdmb.models.flight_cycle import world_velocity
+from birdmb.orbits.collocation import (
+    Collocated,
+    CollocationEquations,
+    more_nodes,
+    refuse_rough,
+)
+from birdmb.orbits.newton import Iteration, solve
+from birdmb.orbits.right_hand_side import RightHandSide
+from birdmb.orbits.trigonometric import resampled
+from birdmb.studies.cycles import KeptModels
+from birdmb.studies.trim_equations import ITERATIONS, give_up_creeping
+
+_STEP = 1e-6  # of the distance between the bounds
+_MOST_NODES = 129
+
+
+class CollocatedTrim:
+    """Collocation of the orbit, and mean climb rate and speed minus their targets.
+
+    Unknowns (N n + k,): the states at N nodes of the beat in units of the state scale, and the
+    parameters as shares of the way between their bounds. Residuals: the mismatch of the slopes as
+    in `CollocationEquations`, then (k,) in m/s, the means being those over the nodes.
+
+    Args:
+        model_at: the models at parameters (k,).
+        low: lower bounds (k,); without any there is only the orbit.
+        high: upper bounds (k,).
+        targets: "climb_rate" and perhaps "speed", m/s; as many as parameters.
+        nodes: number N of nodes, odd.
+    """
+
+    dear_jacobian = True
+
+    def __init__(
+        self,
+        model_at: KeptModels,
+        low: FloatArray,
+        high: FloatArray,
+        targets: Mapping[str, float],
+        nodes: int,
+    ) -> None:
+        self._model_at, self._low, self._width = model_at, low, high - low
+        self._targets, self.nodes = targets, nodes
+        self._equations: dict[tuple[float, ...], CollocationEquations] = {}
+        self.by_state: FloatArray = np.empty(0)
+        """Derivatives (N, n, n) of the scaled rates at the last Jacobian."""
+        self.by_share: FloatArray = np.empty(0)
+        """Derivatives (N n, k) of the orbit's residuals there."""
+
+    def with_nodes(self, nodes: int) -> CollocatedTrim:
+        """The same system on other nodes."""
+        high = self._low + self._width
+        return CollocatedTrim(self._model_at, self._low, high, self._targets, nodes)
+
+    def pack(self, path: FloatArray, point: FloatArray) -> FloatArray:
+        """Unknowns of states (K, n) at K even instants, K odd, and parameters (k,)."""
+        scaled = path / self._model_at(point).state_scale
+        shares = (point - self._low) / self._width
+        return np.concatenate([resampled(scaled, self.nodes).ravel(), shares])
+
+    def unpack(self, u: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Scaled states (N n,), and parameters (k,)."""
+        size = u.size - self._low.size
+        return u[:size], self._low + u[size:] * self._width
+
+    def path(self, u: FloatArray) -> FloatArray:
+        """States (N, n) at the nodes, in their own units."""
+        states, point = self.unpack(u)
+        return states.reshape(self.nodes, -1) * self._model_at(point).state_scale
+
+    def orbit(self, point: FloatArray) -> CollocationEquations:
+        """The equations of the orbit alone at parameters (k,)."""
+        key = tuple(point.tolist())
+        if key not in self._equations:
+            model = self._model_at(point)
+            rhs = RightHandSide(model, model.state_scale)
+            self._equations[key] = CollocationEquations(
+                rhs, 0.0, model.bird.period, False, self.nodes
+            )
+        return self._equations[key]
+
+    def residual(self, u: FloatArray) -> FloatArray:
+        """Residual (N n + k,); StateError out of bounds, or where the right-hand side fails."""
+        shares = u[u.size - self._low.size :]
+        if ((shares < 0.0) | (shares > 1.0)).any():
+            raise StateError("the parameters left their bounds.")
+        states, point = self.unpack(u)
+        equations = self.orbit(point)
+        mean = world_velocity(self.path(u)).mean(axis=0)
+        reached = {"climb_rate": mean[1], "speed": np.hypot(*mean)}
+        missed = [reached[name] - wanted for name, wanted in self._targets.items()]
+        return np.concatenate([equations.residual(states), missed])
+
+    def jacobian(self, u: FloatArray) -> FloatArray:
+        """Its derivative; by the parameters by differences of the rates."""
+        states, point = self.unpack(u)
+        equations = self.orbit(point)
+        times = equations.times(equations.period)
+        self.by_state = equations.rhs.jacobians(times, states.reshape(self.nodes, -1))
+        here = equations.residual(states)
+        columns = []
+        for share, width in zip(np.eye(point.size), self._width, strict=True):
+            inwards = point @ share > self._low @ share + 0.5 * width
+            step = -_STEP if inwards else _STEP
+            shifted = self.orbit(point + step * width * share).residual(states)
+            columns.append((shifted - here) / step)
+        self.by_share = np.array(columns).reshape(point.size, states.size).T
+        return self.assemble(u, self.by_state, self.by_share)
+
+    def assemble(self, u: FloatArray, by_state: FloatArray, by_share: FloatArray) -> FloatArray:
+        """The derivative from those of the rates (N, n, n) and of the residuals (N n, k)."""
+        states, point = self.unpack(u)
+        equations = self.orbit(point)
+        count = point.size
+        matrix = np.zeros((u.size, u.size))
+        matrix[: states.size, : states.size] = equations.assemble(states, by_state)
+        matrix[: states.size, states.size :] = by_share
+        if count:
+            matrix[states.size :, : states.size] = self._means_by_state(u)
+        return matrix
+
+    def start_and_period(self, u: FloatArray) -> tuple[FloatArray, float]:
+        """State (n,) at t = 0, and period."""
+        states, point = self.unpack(u)
+        return self.orbit(point).start_and_period(states)
+
+    def closure(self, residual: FloatArray) -> float:
+        """Largest residual."""
+        return float(np.abs(residual).max())
+
+    def round_off(self, u: FloatArray) -> float:
+        """Norm that round-off leaves of the residual."""
+        states, point = self.unpack(u)
+        return self.orbit(point).round_off(states)
+
+    def _means_by_state(self, u: FloatArray) -> FloatArray:
+        """Derivatives (k, N n) of the means by the scaled states."""
+        x = self.path(u)
+        scale = self._model_at(self.unpack(u)[1]).state_scale
+        forwards, down, theta = x[:, 0], x[:, 1], x[:, 3]
+        c, s = np.cos(theta), np.sin(theta)
+        by_state = np.zeros((2, *x.shape))
+        by_state[0, :, 0], by_state[0, :, 1], by_state[0, :, 3] = c, s, down * c - forwards * s
+        by_state[1, :, 0], by_state[1, :, 1], by_state[1, :, 3] = s, -c, forwards * c + down * s
+        forward, climb = (by_state * scale / self.nodes).reshape(2, -1)
+        mean = world_velocity(x).mean(axis=0)
+        along, upwards = mean / np.hypot(*mean)
+        rows = {"climb_rate": climb, "speed": along * forward + upwards * climb}
+        return np.array([rows[name] for name in self._targets])
+
+
+def solve_collocated(
+    equations: CollocatedTrim,
+    path: FloatArray,
+    point: FloatArray,
+    *,
+    tolerance: float,
+    accuracy: float,
+) -> tuple[FloatArray, Collocated]:
+    """Parameters (k,) and orbit of a trimmed cycle, by Newton's method on as many nodes as needed.
+
+    Args:
+        equations: on the number of nodes to begin with.
+        path: states (K, n) at K even instants, K odd, to start from.
+        point: parameters (k,) to start from.
+        tolerance: norm of the residual accepted.
+        accuracy: largest correction that half as many nodes again may make.
+
+    Raises:
+        OrbitError: it was not found; `NotSmoothError` where the orbit is too rough.
+        StateError: the right-hand side fails at the start.
+    """
+    history: list[Iteration] = []
+    errors: list[float] = []
+    u = equations.pack(path, point)
+
+    def record(iteration: Iteration) -> None:
+        history.append(replace(iteration, number=len(history)))
+        give_up_creeping(history[-1])
+
+    while True:
+        u, residual, _ = solve(
+            equations,
+            u,
+            damping="line-search",
+            tolerance=max(tolerance, equations.round_off(u)),
+            max_iterations=ITERATIONS,
+            callback=record,
+        )
+        finer, finer_u, error = _correction(equations, u)
+        if error <= accuracy:
+            break
+        errors.append(error)
+        refuse_rough(equations, u, errors, accuracy, _MOST_NODES, history)
+        equations, u = finer, finer_u
+    states, point = equations.unpack(u)
+    orbit = equations.orbit(point)
+    return point, Collocated(
+        equations=orbit,
+        u=states,
+        residual=residual[: states.size],
+        finer=finer.orbit(point),
+        finer_u=finer.unpack(finer_u)[0],
+        state_error=error,
+        iterations=tuple(history),
+    )
+
+
+def _correction(
+    equations: CollocatedTrim, u: FloatArray
+) -> tuple[CollocatedTrim, FloatArray, float]:
+    """The system on more nodes, unknowns after a Newton step there, and the largest correction.
+
+    With the derivatives interpolated: they decide how good the step is, not where it leads.
+    """
+    nodes = equations.nodes
+    finer = equations.with_nodes(more_nodes(nodes))
+    _, point = equations.unpack(u)
+    if not equations.by_state.size:
+        equations.jacobian(u)
+    start = finer.pack(equations.path(u), point)
+    by_share = equations.by_share.reshape(nodes, -1, point.size) * np.sqrt(nodes / finer.nodes)
+    matrix = finer.assemble(
+        start,
+        resampled(equations.by_state, finer.nodes),
+        resampled(by_share, finer.nodes).reshape(-1, point.size),
+    )
+    try:
+        step = -np.linalg.solve(matrix, finer.residual(start))
+    except np.linalg.LinAlgError:
+        raise OrbitError("the system of orbit and targets is singular.") from None
+    return finer, start + step, float(np.abs(step).max())
