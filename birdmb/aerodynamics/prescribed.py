@@ -21,7 +21,7 @@ from birdmb.aerodynamics.elements import (
 )
 from birdmb.aerodynamics.tail import TailSurface, tail_influence
 from birdmb.wing.arrays import WingArrays
-from birdmb.wing.shape import wing_shape
+from birdmb.wing.stacked import StackedShapes, shape_at, wing_shapes
 
 
 class PrescribedWing(NamedTuple):
@@ -47,6 +47,17 @@ def driven(wing: WingArrays, t: float) -> tuple[FloatArray, FloatArray, FloatArr
     )
 
 
+def driven_at(wing: WingArrays, times: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """As `driven`, each (P, A), at `times` (P,) s."""
+    argument = wing.angular_frequency * times[:, None] + wing.phase
+    swing = wing.amplitude * np.sin(argument)
+    return (
+        wing.offset + swing,
+        wing.angular_frequency * wing.amplitude * np.cos(argument),
+        -(wing.angular_frequency**2) * swing,
+    )
+
+
 def prescribed_wing(
     wing: WingArrays,
     tail: TailSurface,
@@ -56,20 +67,39 @@ def prescribed_wing(
     published: bool,
 ) -> PrescribedWing:
     """Tabulate the wing at `times` (P,) s; inverses are NaN where the wing is across the plane."""
-    shapes = [wing_shape(wing, *driven(wing, t)[:2], elements, rounding, published) for t in times]
-    placed = [place_elements(shape, wing.root) for shape in shapes]
-    clearances = np.array([clearance(at) for at in placed])
-    inverse = np.full((len(placed), elements, elements), np.nan)
-    for k in np.flatnonzero(clearances >= 0.0):
-        inverse[k] = np.linalg.inv(circulation_system(placed[k]))
-    return PrescribedWing(
-        Elements(*(np.stack(arrays) for arrays in zip(*placed, strict=True))),
-        inverse,
-        np.stack([tail_influence(tail, at.node) for at in placed]),
-        np.stack([shape.beyond for shape in shapes]),
-        np.array([shape.converged for shape in shapes]),
-        clearances,
+    angles, rates, _ = driven_at(wing, times)
+    shapes = wing_shapes(wing, angles, rates, elements, rounding, published)
+    return _tabulated(shapes, wing.root, tail)
+
+
+@kernel
+def _tabulated(shapes: StackedShapes, root: FloatArray, tail: TailSurface) -> PrescribedWing:
+    count, n = shapes.chord.shape
+    position, node = np.empty((count, n, 3)), np.empty((count, n + 1, 3))
+    width, clearances = np.empty((count, n)), np.empty(count)
+    induced_y, induced_z = np.empty((count, n, n)), np.empty((count, n, n))
+    inverse, at_tail = np.full((count, n, n), np.nan), np.empty((count, 2, n))
+    for k in range(count):
+        placed = place_elements(shape_at(shapes, k), root)
+        position[k], node[k], width[k] = placed.position, placed.node, placed.width
+        induced_y[k], induced_z[k] = placed.induced_y, placed.induced_z
+        at_tail[k] = tail_influence(tail, placed.node)
+        clearances[k] = clearance(placed)
+        if clearances[k] >= 0.0:
+            inverse[k] = np.linalg.inv(circulation_system(placed))
+    elements = Elements(
+        position,
+        shapes.velocity,
+        shapes.chord_direction,
+        shapes.normal,
+        shapes.span_direction,
+        shapes.chord,
+        node,
+        width,
+        induced_y,
+        induced_z,
     )
+    return PrescribedWing(elements, inverse, at_tail, shapes.beyond, shapes.converged, clearances)
 
 
 def every_second(wing: PrescribedWing) -> PrescribedWing:

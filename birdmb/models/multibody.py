@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from birdmb._typing import BoolArray, FloatArray
-from birdmb.aerodynamics.prescribed import driven
+from birdmb.aerodynamics.prescribed import driven, driven_at
 from birdmb.errors import StateError
 from birdmb.models.compiled_calls import COMPILED, calls_compiled_code
 from birdmb.models.determinacy import refuse_undetermined
@@ -186,8 +186,7 @@ class MultibodyModel(WingModel):
             return found
         body = np.array([self.body_state(x) for x in states])
         q, v = self._coordinates(times, body, states)
-        air = np.array([self.air_velocity(t) for t in times.tolist()])
-        a = self._tree.accelerations(times, q, v, air)
+        a = self._tree.accelerations(times, q, v, self.air_velocities(times))
         u, w, pitch_rate, theta = body.T
         found = np.empty(states.shape)
         if self._body_states:
@@ -249,8 +248,17 @@ class MultibodyModel(WingModel):
 
     def driven_state(self, t: float = 0.0) -> FloatArray:
         """State (n,) at t (s) of the body in mean trim, with compliant joints on their drivers."""
-        angles, rates, _ = driven(self.wing, t)
-        return self._own(self._trim, angles[self._compliant], rates[self._compliant])
+        return self.guess_along(np.array([t]))[0]
+
+    def guess_along(self, times: FloatArray) -> FloatArray:
+        """A guess (K, n) of a limit cycle at `times` (K,) s: `driven_state` at each."""
+        angles, rates, _ = driven_at(self.wing, times)
+        guess = np.empty((times.size, len(self.state_names)))
+        if self._body_states:
+            guess[:, : self._body_states] = self._trim
+        guess[:, self._body_states :: 2] = angles[:, self._compliant]
+        guess[:, self._body_states + 1 :: 2] = rates[:, self._compliant]
+        return guess
 
     @cached_property
     def _trim(self) -> FloatArray:

@@ -5,7 +5,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from birdmb._typing import FloatArray
+from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.prescribed import (
     PrescribedWing,
     driven,
@@ -22,7 +22,7 @@ from birdmb.models.failures import (
 from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.gusts import Gust
-from birdmb.models.rigid_kernel import RigidBody, integrate_rigid, rigid_rates
+from birdmb.models.rigid_kernel import RigidBody, integrate_rigid, rates_along
 from birdmb.models.trim import mean_trim
 from birdmb.models.wing_model import (
     BODY_SCALE,
@@ -37,6 +37,7 @@ _ORDER = 4
 _TOLERANCE = 1e-6
 _MOST_STEPS = 1000
 _TABLES_KEPT = 64
+_PHASES = 16  # enough for means over a beat, to guess from
 
 
 class RigidModel(WingModel):
@@ -58,7 +59,7 @@ class RigidModel(WingModel):
         super().__init__(bird, steps_per_beat=steps_per_beat, gust=gust)
         body = RigidBody(bird.body.mass, bird.body.inertia_yy, bird.gravity)
         self._constants = (self.airframe, body)
-        self._tables: dict[tuple[float, float, int], PrescribedWing] = {}
+        self._tables: dict[tuple[float, float, int] | bytes, PrescribedWing] = {}
 
     @cached_property
     def steps_per_beat(self) -> int:
@@ -93,10 +94,26 @@ class RigidModel(WingModel):
 
     def rhs(self, t: float, x: npt.ArrayLike) -> FloatArray:
         """Rates (4,) of the states at time t (s) in state x (4,)."""
-        wing = self._tabulate(t, 0.0, 0)
-        gust = np.array(self.air_velocity(t))
-        rates, _ = rigid_rates(wing, 0, np.asarray(x, dtype=float), gust, *self._constants)
-        return np.asarray(rates)
+        times, states = np.array([t]), np.asarray(x, dtype=float)[None, :]
+        return self._along(self.wing_at(times), np.zeros(1, np.int64), times, states)[0][0]
+
+    def rates(self, times: FloatArray, states: FloatArray) -> FloatArray:
+        """Rates (K, 4) at `times` (K,) s of `states` (K, 4), NaN where these are not finite.
+
+        Raises:
+            StateError: the wing has no loads, or the motion is beyond floating point.
+        """
+        return self._along(*self._table_for(times), times, states)[0]
+
+    def rate_jacobians(self, times: FloatArray, states: FloatArray) -> FloatArray:
+        """Derivatives (K, 4, 4) of the rates, rows, by the states, columns; exact; as `rates`."""
+        return self._along(*self._table_for(times), times, states)[1]
+
+    def _along(
+        self, wing: PrescribedWing, phase: IntArray, times: FloatArray, states: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        with overflow_told(self.bird, "the force of the air"):
+            return rates_along(wing, phase, states, self.air_velocities(times), *self._constants)
 
     def flow(self, x0: npt.ArrayLike, t0: float, t1: float) -> FloatArray:
         """State (4,) at t1 (s) of the flight through x0 (4,) at t0; raises `StateError`."""
@@ -121,11 +138,29 @@ class RigidModel(WingModel):
         """State (4,) in which the loads, averaged over a beat, come closest to balance."""
         return self._first_guess.copy()
 
+    def guess_along(self, times: FloatArray) -> FloatArray:
+        """A guess (K, 4) of a limit cycle at `times` (K,) s: the initial guess, held steadily.
+
+        Times that are spread evenly over a beat, and are not few, serve for the means as well.
+        """
+        guess = self._trim(times) if self._span_a_beat(times) else self._first_guess
+        return np.tile(guess, (times.size, 1))
+
+    def _span_a_beat(self, times: FloatArray) -> bool:
+        if times.size < _PHASES:
+            return False
+        period = self.bird.period
+        steps = np.diff(times, append=times[0] + period)
+        return bool((np.abs(steps - period / times.size) < 1e-9 * period).all())
+
     @cached_property
     def _first_guess(self) -> FloatArray:
-        times = np.linspace(0.0, self.bird.period, 17)[:-1]
+        return self._trim(np.linspace(0.0, self.bird.period, _PHASES + 1)[:-1])
+
+    def _trim(self, times: FloatArray) -> FloatArray:
+        wing, _ = self._table_for(times)
         with overflow_told(self.bird, "the flight in which the mean loads balance"):
-            return mean_trim(self.bird, self.wing_at(times), self.airframe)
+            return mean_trim(self.bird, wing, *self._constants)
 
     def _integrate(
         self, x0: npt.ArrayLike, t0: float, t1: float
@@ -135,7 +170,7 @@ class RigidModel(WingModel):
         refuse_runaway(self.bird, self.state_names, start, self.state_scale, t0)
         table, gusts = (
             self._table(t0 % self.bird.period, t1 - t0, steps),
-            self._gusts(t0, t1, 2 * steps),
+            self.air_velocities(np.linspace(t0, t1, 2 * steps + 1)),
         )
         with overflow_told(self.bird, f"the flight from t = {t0:.4g} to {t1:.4g} s"):
             found = integrate_rigid(table, start, (t1 - t0) / steps, gusts, *self._constants)
@@ -146,27 +181,28 @@ class RigidModel(WingModel):
             )
         return found
 
-    def _gusts(self, t0: float, t1: float, steps: int) -> FloatArray:
-        if self._gust is None:
-            return np.zeros((steps + 1, 2))
-        return np.array([self.air_velocity(t) for t in np.linspace(t0, t1, steps + 1)])
-
     def _described(self, x: FloatArray) -> str:
         return ", ".join(f"{n} = {v:.4g}" for n, v in zip(self.state_names, x, strict=True))
 
     def _table(self, t0: float, duration: float, steps: int) -> PrescribedWing:
         """The wing at every half step from t0 on; kept, for flows ask for the same ones again."""
-        key = (t0, duration, steps)
+        times = t0 + duration * np.arange(2 * steps + 1) / max(2 * steps, 1)
+        return self._kept((t0, duration, steps), times)
+
+    def _table_for(self, times: FloatArray) -> tuple[PrescribedWing, IntArray]:
+        """The wing at the distinct ones of `times` (K,), and which of them each is; kept too."""
+        if (times[1:] > times[:-1]).all():
+            return self._kept(times.tobytes(), times), np.arange(times.size)
+        distinct, phase = np.unique(times, return_inverse=True)
+        return self._kept(distinct.tobytes(), distinct), phase
+
+    def _kept(self, key: tuple[float, float, int] | bytes, times: FloatArray) -> PrescribedWing:
         table = self._tables.get(key)
         if table is None:
             if len(self._tables) >= _TABLES_KEPT:
                 self._tables.clear()
-            table = self._tables[key] = self._tabulate(*key)
+            table = self._tables[key] = self.wing_at(times)
         return table
-
-    def _tabulate(self, t0: float, duration: float, steps: int) -> PrescribedWing:
-        times = t0 + duration * np.arange(2 * steps + 1) / max(2 * steps, 1)
-        return self.wing_at(times)
 
     def wing_at(self, times: FloatArray) -> PrescribedWing:
         """The wing on its drivers at `times` (P,) s; raises `StateError` where it has no loads."""

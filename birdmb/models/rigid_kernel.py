@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from birdmb._kernels import kernel
-from birdmb._typing import FloatArray
+from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.airframe import Airframe
 from birdmb.aerodynamics.prescribed import PrescribedWing, bird_loads
 
@@ -55,6 +55,27 @@ def rigid_rates(
     jacobian[1, 3] -= body.gravity * s
     jacobian[3, 2] = 1.0
     return rates, jacobian
+
+
+@kernel
+def rates_along(
+    wing: PrescribedWing,
+    phase: IntArray,
+    states: FloatArray,
+    gusts: FloatArray,
+    frame: Airframe,
+    body: RigidBody,
+) -> tuple[FloatArray, FloatArray]:
+    """Rates (K, 4) of `states` (K, 4) at tabulated phases (K,), and their Jacobians (K, 4, 4).
+
+    `gusts` (K, 2) m/s as for `rigid_rates`. NaN where a state is not finite.
+    """
+    rates = np.full(states.shape, np.nan)
+    jacobians = np.full((states.shape[0], 4, 4), np.nan)
+    for i in range(states.shape[0]):
+        if np.isfinite(states[i]).all():
+            rates[i], jacobians[i] = rigid_rates(wing, phase[i], states[i], gusts[i], frame, body)
+    return rates, jacobians
 
 
 @kernel

@@ -88,6 +88,12 @@ class WingModel(ABC):
         horizontal, upwards = self._gust(t)
         return float(horizontal), -float(upwards)
 
+    def air_velocities(self, times: FloatArray) -> FloatArray:
+        """Velocities (K, 2) m/s of the air in the world at `times` (K,) s, as `air_velocity`."""
+        if self._gust is None:
+            return np.zeros((times.size, 2))
+        return np.array([self.air_velocity(t) for t in times.tolist()])
+
     @abstractmethod
     def trajectory(
         self, x0: npt.ArrayLike, t0: float, t1: float, times: npt.ArrayLike | None = None

@@ -92,20 +92,47 @@ def wing_shape(
     Of the joints, then of the feathers' hinges. Body axes; velocities relative to the body.
     `published` takes the reference program's line instead of the orthogonal one.
     """
-    moving = angles + 1j * COMPLEX_STEP * rates
     try:
-        if published:
-            pairs, leading, guide, per_hinge = one_step_wing(wing, moving, 2 * elements)
-        else:
-            pairs, leading, guide, per_hinge = orthogonal_wing(wing, moving, 2 * elements, rounding)
-        shape = _assemble(pairs, guide, leading, per_hinge, rounding, published)
+        return shape_of_edges(wing, angles, rates, elements, rounding, published)
     except ZeroDivisionError:  # a leg or a chord without length
         return _no_shape(wing, elements)
-    aft = -skeleton(wing, moving).rotation[HUMERUS, :, 0].real
+
+
+@kernel
+def shape_of_edges(
+    wing: WingArrays,
+    angles: FloatArray,
+    rates: FloatArray,
+    elements: int,
+    rounding: float,
+    published: bool,
+) -> WingShape:
+    """As `wing_shape`, but raises `ZeroDivisionError` where an edge or a chord has no length."""
+    moving = angles + 1j * COMPLEX_STEP * rates
+    if published:
+        pairs, leading, guide, per_hinge = one_step_wing(wing, moving, 2 * elements)
+    else:
+        pairs, leading, guide, per_hinge = orthogonal_wing(wing, moving, 2 * elements, rounding)
+    shape = _assemble(pairs, guide, leading, per_hinge, rounding, published)
+    forward = skeleton(wing, moving).rotation[HUMERUS, :, 0].real
     # Written so that what is not finite does not pass.
-    backwards = bool((shape.chord_direction @ aft > 0.0).all())
-    sound = backwards and bool(np.isfinite(shape.line).all() and np.isfinite(shape.velocity).all())
-    return shape._replace(converged=bool(shape.converged) and sound)
+    sound = bool(np.isfinite(shape.line).all() and np.isfinite(shape.velocity).all())
+    for e in range(elements):
+        aft = 0.0
+        for i in range(3):
+            aft -= shape.chord_direction[e, i] * forward[i]
+        sound = sound and aft > 0.0
+    return WingShape(
+        shape.line,
+        shape.velocity,
+        shape.chord_direction,
+        shape.normal,
+        shape.span_direction,
+        shape.chord,
+        shape.beyond,
+        shape.converged and sound,
+        shape.hinge_velocity,
+    )
 
 
 def _no_shape(wing: WingArrays, elements: int) -> WingShape:

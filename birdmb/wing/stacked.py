@@ -7,7 +7,8 @@ import numpy as np
 
 from birdmb._kernels import kernel
 from birdmb._typing import BoolArray, FloatArray
-from birdmb.wing.shape import WingShape
+from birdmb.wing.arrays import WingArrays
+from birdmb.wing.shape import WingShape, shape_of_edges, wing_shape
 
 
 class StackedShapes(NamedTuple):
@@ -27,6 +28,60 @@ class StackedShapes(NamedTuple):
 def stacked_shapes(shapes: Sequence[WingShape]) -> StackedShapes:
     """Shapes as one."""
     return StackedShapes(*(np.array(arrays) for arrays in zip(*shapes, strict=True)))
+
+
+def wing_shapes(
+    wing: WingArrays,
+    angles: FloatArray,
+    rates: FloatArray,
+    elements: int,
+    rounding: float,
+    published: bool,
+) -> StackedShapes:
+    """Shapes of the right wing for `angles` and `rates` (P, A), as `wing_shape` gives each."""
+    try:
+        return _made(wing, angles, rates, elements, rounding, published)
+    except ZeroDivisionError:  # of one at least: the others have their shapes nevertheless
+        shapes = [
+            wing_shape(wing, *moving, elements=elements, rounding=rounding, published=published)
+            for moving in zip(angles, rates, strict=True)
+        ]
+        return stacked_shapes(shapes)
+
+
+@kernel
+def _made(
+    wing: WingArrays,
+    angles: FloatArray,
+    rates: FloatArray,
+    elements: int,
+    rounding: float,
+    published: bool,
+) -> StackedShapes:
+    count, hinges = angles.shape[0], wing.offset.size - wing.segment.size
+    stack = StackedShapes(
+        np.empty((count, 2 * elements, 3)),
+        np.empty((count, elements, 3)),
+        np.empty((count, elements, 3)),
+        np.empty((count, elements, 3)),
+        np.empty((count, elements, 3)),
+        np.empty((count, elements)),
+        np.empty((count, elements, 2)),
+        np.empty(count, np.bool_),
+        np.empty((count, hinges, elements, 3)),
+    )
+    for k in range(count):
+        shape = shape_of_edges(wing, angles[k], rates[k], elements, rounding, published)
+        stack.line[k] = shape.line
+        stack.velocity[k] = shape.velocity
+        stack.chord_direction[k] = shape.chord_direction
+        stack.normal[k] = shape.normal
+        stack.span_direction[k] = shape.span_direction
+        stack.chord[k] = shape.chord
+        stack.beyond[k] = shape.beyond
+        stack.converged[k] = shape.converged
+        stack.hinge_velocity[k] = shape.hinge_velocity
+    return stack
 
 
 @kernel

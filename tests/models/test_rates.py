@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 import birdmb
+from birdmb.models.gusts import GaussianGust
+from tests.conftest import TOPOLOGIES
 
 PLIANT = {"stiffness": 20.0, "damping": 0.2}
 STATE = (18.0, -2.0, 0.3, -0.1)
@@ -46,3 +48,95 @@ def test_states_that_are_not_finite_have_no_rates(ibis):
     rates = model.rates(np.array([0.0, 0.1]), states)
     assert np.isfinite(rates[0]).all()
     assert np.isnan(rates[1]).all()
+
+
+GUST = GaussianGust(vertical=3.0, horizontal=-2.0, time=0.1)
+
+
+@pytest.fixture(params=["ibis", "ibis_tail", "ibis_published", "in a gust"])
+def rigid(request):
+    if request.param == "in a gust":
+        return birdmb.RigidModel(coarse(request.getfixturevalue("ibis_tail")), gust=GUST)
+    bird = request.getfixturevalue(request.param)
+    return birdmb.RigidModel(bird if request.param == "ibis_published" else coarse(bird))
+
+
+@pytest.fixture
+def scattered(rigid):
+    """Times, some of them twice and in no order, and states all over the place."""
+    times = np.array([0.0, 0.07, 0.07, 0.2, 0.11, 0.0, 0.3])
+    rng = np.random.default_rng(2)
+    return times, STATE + rigid.state_scale * rng.uniform(-0.5, 0.5, (times.size, 4))
+
+
+def test_rates_of_the_rigid_bird_are_its_right_hand_sides(rigid, scattered):
+    each = [rigid.rhs(t, x) for t, x in zip(*scattered, strict=True)]
+    np.testing.assert_allclose(rigid.rates(*scattered), each, rtol=1e-15, atol=1e-15)
+    in_order = np.linspace(0.0, 0.2, 7)
+    each = [rigid.rhs(t, x) for t, x in zip(in_order, scattered[1], strict=True)]
+    np.testing.assert_allclose(rigid.rates(in_order, scattered[1]), each, rtol=1e-15, atol=1e-15)
+
+
+def test_rate_jacobians_of_the_rigid_bird_are_derivatives_of_its_rates(rigid, scattered):
+    times, states = scattered
+    found = rigid.rate_jacobians(times, states)
+    for j, h in enumerate(1e-5 * rigid.state_scale):
+        step = h * np.eye(4)[j]
+        slopes = (rigid.rates(times, states + step) - rigid.rates(times, states - step)) / (2.0 * h)
+        np.testing.assert_allclose(found[:, :, j], slopes, rtol=1e-8, atol=1e-7)
+
+
+def test_rigid_states_that_are_not_finite_have_no_rates(ibis):
+    model = birdmb.RigidModel(coarse(ibis))
+    times, states = np.array([0.0, 0.1]), np.array([STATE, (np.inf, *STATE[1:])])
+    for found in model.rates(times, states), model.rate_jacobians(times, states):
+        assert np.isfinite(found[0]).all()
+        assert np.isnan(found[1]).all()
+
+
+def test_rates_of_a_body_that_stands_still_in_still_air_are_refused(ibis):
+    """Sections without any wind have no angle of attack; here the wing stands still as well."""
+    bird = coarse(ibis)
+    for joint in bird.joints:
+        bird = bird.with_joint(joint.name, amplitude=0.0)
+    with pytest.raises(birdmb.StateError, match="cannot be computed"):
+        birdmb.RigidModel(bird).rates(np.zeros(1), np.zeros((1, 4)))
+
+
+def test_guess_along_of_the_rigid_bird_is_its_mean_trim(ibis):
+    model = birdmb.RigidModel(coarse(ibis))
+    for times in np.linspace(0.0, 0.25, 28)[:-1], np.array([0.1, 0.0, 0.02]):
+        guess = model.guess_along(times)
+        assert guess.shape == (times.size, 4)
+        np.testing.assert_allclose(
+            guess, np.tile(model.initial_guess(), (times.size, 1)), rtol=1e-4
+        )
+
+
+def test_the_mean_loads_balance_in_the_mean_trim(ibis, ibis_tail):
+    for bird in (ibis, ibis_tail, ibis.with_values({"wing.discretisation": "published"})):
+        model = birdmb.RigidModel(bird)
+        times = np.linspace(0.0, bird.period, 17)[:-1]
+        mean = model.rates(times, np.tile(model.initial_guess(), (16, 1))).mean(axis=0)
+        np.testing.assert_allclose(mean, 0.0, atol=1e-6)
+
+
+def test_guess_along_of_a_multibody_bird_follows_the_drivers(ibis):
+    model = birdmb.MultibodyModel(sprung(coarse(ibis), "shoulder.flap", "wrist.sweep"))
+    tethered = birdmb.TetheredModel(model.bird, (*STATE[:2], 0.0, STATE[3]))
+    times = np.array([0.0, 0.03, 0.2])
+    guess = model.guess_along(times)
+    np.testing.assert_array_equal(tethered.guess_along(times), guess[:, 4:])
+    np.testing.assert_array_equal(guess[:, :4], np.tile(model.driven_state()[:4], (3, 1)))
+    for t, x in zip(times, guess, strict=True):
+        angles, rates = birdmb.RigidModel(model.bird).joint_motion(t, STATE)
+        np.testing.assert_allclose(x[4::2], angles[[1, 5]], rtol=1e-14)
+        np.testing.assert_allclose(x[5::2], rates[[1, 5]], rtol=1e-14)
+
+
+def test_guess_along_leaves_hinges_at_rest():
+    bird = coarse(birdmb.load_bird(TOPOLOGIES / "ibis_hinged_feathers.toml"))
+    guess = birdmb.MultibodyModel(bird).guess_along(np.array([0.0, 0.1]))
+    rest = [feather.hinge.rest for feather in bird.hinged_feathers]
+    np.testing.assert_array_equal(guess[:, -2 * len(rest) :: 2], np.tile(rest, (2, 1)))
+    assert not guess[:, -2 * len(rest) + 1 :: 2].any()
