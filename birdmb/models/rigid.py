@@ -23,6 +23,7 @@ from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.gusts import Gust
 from birdmb.models.rigid_kernel import RigidBody, integrate_rigid, rates_along
+from birdmb.models.starts import INCIDENCES, PATH_ANGLES, SPEEDS, steady_states
 from birdmb.models.trim import mean_trim
 from birdmb.models.wing_model import (
     BODY_SCALE,
@@ -145,6 +146,15 @@ class RigidModel(WingModel):
         """
         guess = self._trim(times) if self._span_a_beat(times) else self._first_guess
         return np.tile(guess, (times.size, 1))
+
+    def starting_paths(self, times: FloatArray) -> FloatArray:
+        """Paths (S, K, 4) at `times` (K,) s to look for flights from, the guess first.
+
+        Steady flights at several speeds, incidences and path angles; raises `StateError`.
+        """
+        steady = steady_states(self, SPEEDS, INCIDENCES, PATH_ANGLES)
+        paths = np.broadcast_to(steady[:, None, :], (len(steady), times.size, 4))
+        return np.concatenate([self.guess_along(times)[None], paths])
 
     def _span_a_beat(self, times: FloatArray) -> bool:
         if times.size < _PHASES:

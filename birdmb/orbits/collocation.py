@@ -281,4 +281,6 @@ def _needed(nodes: int, errors: list[float], accuracy: float) -> float:
     """
     last, before = errors[-1], errors[-3]
     order = np.log(before / last) / np.log(_GROWTH**2)
-    return float(nodes * (last / accuracy) ** (1 / max(order, 1e-3)))
+    # Errors that hardly fall off ask for more nodes than a float can count.
+    with np.errstate(over="ignore"):
+        return float(nodes * np.exp(np.log(last / accuracy) / max(order, 1e-3)))

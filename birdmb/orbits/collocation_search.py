@@ -72,7 +72,7 @@ def search_by_collocation(
     declared = declared_scale(model)
     scale = sizes_along(model, path, start_time, period) if declared is None else declared
     require_period(model, path[0], scale, start_time, period)
-    gap = _derivative_gap(RightHandSide(model, scale), path / scale, start_time, period)
+    gap = derivative_gap(RightHandSide(model, scale), path / scale, start_time, period)
 
     def search(path: FloatArray, period: float, scale: FloatArray) -> Collocated:
         rhs = RightHandSide(model, scale, by_differences=gap > 0)
@@ -109,7 +109,7 @@ def search_by_collocation(
     )
 
 
-def _derivative_gap(
+def derivative_gap(
     rhs: RightHandSide, points: FloatArray, start_time: float, period: float
 ) -> float:
     """By how much a derivative that the model gives contradicts differences; 0 if it does not."""

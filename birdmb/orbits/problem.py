@@ -84,6 +84,23 @@ class HasGuessedPath(Protocol):
 
 
 @runtime_checkable
+class HasStartingPaths(Protocol):
+    """The model proposes closed paths from which a search may find its orbits, all of them."""
+
+    def starting_paths(self, times: FloatArray, /) -> FloatArray:
+        """States (S, K, n) along S paths at `times` (K,), spread evenly; the best start first."""
+
+
+@runtime_checkable
+class HasStatePeriods(Protocol):
+    """The model has states, such as angles, that mean the same a period of theirs further on."""
+
+    @property
+    def state_periods(self) -> FloatArray:
+        """Periods (n,) in the units of the states; infinite of those that do not repeat."""
+
+
+@runtime_checkable
 class HasDivergence(Protocol):
     """The model integrates the divergence of its right-hand side (for Liouville's formula)."""
 

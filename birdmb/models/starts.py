@@ -1,0 +1,46 @@
+"""States from which to look for all flights of a bird."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from birdmb._typing import FloatArray
+
+if TYPE_CHECKING:
+    from birdmb.models.wing_model import WingModel
+
+# Parts of the speed at which the wings carry the weight with this lift coefficient; degrees. What
+# is most likely first.
+_LIFT_COEFFICIENT = 0.5
+SPEEDS = (1.0, 1.5, 0.7, 2.2, 0.4)
+INCIDENCES = (5.0, 15.0, -5.0)
+PATH_ANGLES = (0.0, -20.0, 20.0, -60.0, 60.0)
+_WITHOUT_WEIGHT = 10.0  # m/s
+
+
+def steady_states(
+    model: WingModel,
+    speeds: tuple[float, ...],
+    incidences: tuple[float, ...],
+    path_angles: tuple[float, ...],
+) -> FloatArray:
+    """States (S, 4) u, w, q, theta of steady flights, all combinations.
+
+    `speeds` are parts of the one at which the wings carry the weight, angles are in degrees; raises
+    `StateError` where the wing has no area.
+    """
+    weight = model.mass * model.bird.gravity
+    pressure = weight / (model.wing_area * _LIFT_COEFFICIENT)
+    typical = float(np.sqrt(2.0 * pressure / model.airframe.density)) or _WITHOUT_WEIGHT
+    v, alpha, gamma = (
+        axis.ravel()
+        for axis in np.meshgrid(
+            typical * np.array(speeds),
+            np.radians(incidences),
+            np.radians(path_angles),
+            indexing="ij",
+        )
+    )
+    return np.column_stack([v * np.cos(alpha), v * np.sin(alpha), np.zeros(v.size), alpha + gamma])
