@@ -79,19 +79,29 @@ def element_loads(
     # The solver refuses what is not finite; a flow that diverges is told by whoever follows it.
     if np.isfinite(np.sum(system)) and np.isfinite(np.sum(bound)):
         circulation = np.linalg.solve(system, bound)
-    drag = np.zeros_like(wind)
-    if profile > 0.0:
-        for e in range(speed.size):
-            strength = 0.5 * density * profile * elements.chord[e] * elements.width[e]
-            drag[e] = strength * np.sqrt(_dot(wind[e], wind[e])) * wind[e]
-    force = _forces(elements, density, wind, circulation) + drag
+    drag = profile_drag(elements, density, profile, wind)
+    force = lifting_forces(elements, density, wind, circulation) + drag
     return ElementLoads(circulation, alpha, speed, force, drag)
 
 
 @kernel
-def _forces(
+def profile_drag(
+    elements: Elements, density: float, profile: float, wind: FloatArray
+) -> FloatArray:
+    """Profile drag (N, 3) N of every element in `wind` (N, 3) m/s."""
+    drag = np.zeros_like(wind)
+    if profile > 0.0:
+        for e in range(elements.chord.size):
+            strength = 0.5 * density * profile * elements.chord[e] * elements.width[e]
+            drag[e] = strength * np.sqrt(_dot(wind[e], wind[e])) * wind[e]
+    return drag
+
+
+@kernel
+def lifting_forces(
     elements: Elements, density: float, wind: FloatArray, circulation: FloatArray
 ) -> FloatArray:
+    """Forces (N, 3) N of `circulation` (N,) m2/s in `wind` (N, 3) m/s and what it induces."""
     vy = elements.induced_y @ circulation
     vz = elements.induced_z @ circulation
     force = np.empty((circulation.size, 3))

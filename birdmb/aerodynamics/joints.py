@@ -22,13 +22,16 @@ def joint_torques(
     torque = np.zeros(wing.segment.size)
     moment = np.zeros((3, 3))
     for e in range(force.shape[0]):
-        f = force[e]
+        fx, fy, fz = force[e]
         for bone in range(3):
             share = 1.0 if bone == 0 else beyond[e, bone - 1]
-            r = position[e] - wing.root - chain.origin[bone]
-            moment[bone, 0] += share * (r[1] * f[2] - r[2] * f[1])
-            moment[bone, 1] += share * (r[2] * f[0] - r[0] * f[2])
-            moment[bone, 2] += share * (r[0] * f[1] - r[1] * f[0])
+            # Numbers, not vectors: making these would take most of the time.
+            x = position[e, 0] - wing.root[0] - chain.origin[bone, 0]
+            y = position[e, 1] - wing.root[1] - chain.origin[bone, 1]
+            z = position[e, 2] - wing.root[2] - chain.origin[bone, 2]
+            moment[bone, 0] += share * (y * fz - z * fy)
+            moment[bone, 1] += share * (z * fx - x * fz)
+            moment[bone, 2] += share * (x * fy - y * fx)
     for j in range(torque.size):
         for i in range(3):
             torque[j] += chain.axis[j, i] * moment[wing.segment[j], i]

@@ -2,8 +2,8 @@
 
 Coordinates: X (forward), Z (down), pitch angle, then the joints of the right wing in chain order
 and the hinges of its feathers, then those of the left. Prescribed joints are held to their drivers
-by a driven inertia: a second object on the same node whose mass matrix is B on them alone and whose
-force is B times the driver's acceleration. No constraint is left, so Exudyn's explicit integrators
+by a driven inertia: a second object on the same node whose mass matrix is B on them alone, with a
+force of B times the driver's acceleration. No constraint is left, so Exudyn's explicit integrators
 apply, and a prescribed joint strays from its driver by no more than its loads over B.
 """
 
@@ -22,6 +22,7 @@ from birdmb._typing import BoolArray, FloatArray
 from birdmb.errors import StateError
 from birdmb.models.compiled_calls import COMPILED, Carrier, calls_compiled_code
 from birdmb.models.feather_rods import FeatherRod, feather_rods
+from birdmb.models.tree_kernel import TreeLinks
 from birdmb.topology import BONES, Bird
 
 BODY_COORDINATES = 3
@@ -138,6 +139,34 @@ def _add_wing(
     links.extend(hinges)
 
 
+def tree_links(bird: Bird) -> TreeLinks:
+    """Body and right wing of the tree, for compiled rates."""
+    links = bird_links(bird)
+    body, wing = links[BODY_COORDINATES - 1], links[BODY_COORDINATES:]
+    wing = wing[: len(wing) // 2]
+    to_body = body.transformation
+    parents = np.array([link.parent for link in wing]) - BODY_COORDINATES
+    carried = parents < 0
+    return TreeLinks(
+        parent=parents,
+        offset=np.array(
+            [to_body @ k.offset if own else k.offset for k, own in zip(wing, carried, strict=True)]
+        ),
+        axes=np.array(
+            [
+                to_body @ k.transformation if own else k.transformation
+                for k, own in zip(wing, carried, strict=True)
+            ]
+        ),
+        mass=np.array([link.mass for link in wing]),
+        centre=np.array([link.centre for link in wing]),
+        inertia=np.array([link.inertia for link in wing]),
+        body_mass=body.mass,
+        body_inertia=float(body.inertia[2, 2]),
+        gravity=bird.gravity,
+    )
+
+
 def _add_tree(mbs: Any, links: Sequence[_Link], gravity: float, **options: Any) -> tuple[Any, Any]:
     """Put the links into a system; the numbers of the node of their coordinates and of the tree."""
     zeros = [0.0] * len(links)
@@ -225,8 +254,12 @@ class ExudynBird:
         # strongly, this object or the model, would never be freed.
         call_forces, call_driver = _weakly(forces), _weakly(driver)
 
+        inertia = np.where(prescribed, _DRIVEN_INERTIA * typical_inertias(bird, n), 0.0)
+
+        # The driven inertia's force acts on the same coordinates: one call instead of two.
         def tree_forces(t: float, _item: int, q: Sequence[float], v: Sequence[float]) -> FloatArray:
-            return call_forces()(t, np.array(q), np.array(v))
+            driving = inertia * call_driver()(t)
+            return call_forces()(t, np.array(q), np.array(v)) + driving
 
         node, _ = _add_tree(
             self.mbs,
@@ -234,21 +267,8 @@ class ExudynBird:
             bird.gravity,
             forceUserFunction=self._carrier.callback(tree_forces, n),
         )
-        inertia = np.where(prescribed, _DRIVEN_INERTIA * typical_inertias(bird, n), 0.0)
-
-        def driving_forces(
-            t: float, _item: int, _q: Sequence[float], _v: Sequence[float]
-        ) -> FloatArray:
-            return inertia * call_driver()(t)
-
         if prescribed.any():
-            self.mbs.AddObject(
-                ObjectGenericODE2(
-                    nodeNumbers=[node],
-                    massMatrix=np.diag(inertia),
-                    forceUserFunction=self._carrier.callback(driving_forces, n),
-                )
-            )
+            self.mbs.AddObject(ObjectGenericODE2(nodeNumbers=[node], massMatrix=np.diag(inertia)))
         self.mbs.Assemble()
         self._settings = _quiet_settings()
 

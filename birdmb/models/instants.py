@@ -1,18 +1,19 @@
 """What time alone determines of a bird's wing, kept for all who ask for the same instants."""
 
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.aerodynamics.prescribed import driven
+from birdmb.aerodynamics.prescribed import driven, driven_at
 from birdmb.models.exudyn_tree import BODY_COORDINATES
 from birdmb.models.failures import lifting_line_lost
 from birdmb.topology import Bird
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.shape import WingShape, wing_shape
-from birdmb.wing.stacked import StackedShapes, stacked_shapes
+from birdmb.wing.stacked import StackedShapes, wing_shapes
 
 _INSTANTS_KEPT = 8192
 
@@ -23,7 +24,7 @@ class Instant(NamedTuple):
     angles: FloatArray  # (A,) rad, of the drivers
     rates: FloatArray  # (A,) rad/s
     accelerations: FloatArray  # (n,) of the drivers, 0 for the body
-    shape: WingShape | None  # with the joints that turn the wing as a whole at zero
+    shape: WingShape | None  # with the joints that turn the wing as a whole at zero, if known
 
 
 class StackedInstants(NamedTuple):
@@ -31,14 +32,28 @@ class StackedInstants(NamedTuple):
 
     angles: FloatArray  # (P, A)
     rates: FloatArray  # (P, A)
-    accelerations: FloatArray  # (P, n)
+    accelerations: FloatArray  # (P, A) of the drivers
     shapes: StackedShapes | None
 
 
+class _Kept(NamedTuple):
+    """What was made so far."""
+
+    single: dict[float, Instant]  # by time (s)
+    stacks: dict[bytes, StackedInstants]  # by the times' bytes
+
+    def stack(self, times: FloatArray, made: StackedInstants) -> StackedInstants:
+        """Keep a stack of many, in place of all others where they become too many."""
+        if sum(len(each.angles) for each in self.stacks.values()) + times.size > _INSTANTS_KEPT:
+            self.stacks.clear()
+        self.stacks[times.tobytes()] = made
+        return made
+
+
 @lru_cache(maxsize=2)
-def _kept(_key: tuple[object, ...]) -> dict[float, Instant]:
-    """The instants made so far, by time (s), of all birds with the same wing and drivers."""
-    return {}
+def _kept(_key: tuple[object, ...]) -> _Kept:
+    """Kept by all birds with the same wing and drivers."""
+    return _Kept({}, {})
 
 
 class Instants:
@@ -51,36 +66,56 @@ class Instants:
         bird: the bird.
         wing: its wing.
         discretisation: elements, rounding and whether the line is the published one.
-        turning: how many joints at the shoulder turn the wing as a whole; with none, no shape is
-            made.
+        turning: how many joints at the shoulder turn the wing as a whole.
+        shaping: which of the other joints and hinges follow no driver, and shape the wing; if any
+            do, no shape is made in advance.
     """
 
     def __init__(
-        self, bird: Bird, wing: WingArrays, discretisation: tuple[int, float, bool], turning: int
+        self,
+        bird: Bird,
+        wing: WingArrays,
+        discretisation: tuple[int, float, bool],
+        turning: int,
+        shaping: Sequence[int],
     ) -> None:
         self._bird, self._wing = bird, wing
         self._discretisation, self._turning = discretisation, turning
+        self._shaping = tuple(shaping)
         parts = (np.asarray(part) for part in wing)
-        self._kept = _kept((turning, discretisation, *((p.shape, p.tobytes()) for p in parts)))
+        how = turning, self._shaping, discretisation
+        self._kept = _kept((how, *((p.shape, p.tobytes()) for p in parts)))
 
     def stacked(self, times: FloatArray) -> StackedInstants:
-        """What `times` (P,) s determine."""
-        each = [self.at(t) for t in times.tolist()]
-        shapes = [instant.shape for instant in each if instant.shape is not None]
-        return StackedInstants(
-            np.array([instant.angles for instant in each]),
-            np.array([instant.rates for instant in each]),
-            np.array([instant.accelerations for instant in each]),
-            stacked_shapes(shapes) if shapes else None,
-        )
+        """What `times` (P,) s determine; raises `StateError` if no lifting line fits the wing."""
+        found = self._kept.stacks.get(times.tobytes())
+        if found is None:
+            angles, rates, accelerations = driven_at(self._wing, times)
+            shapes = None if self._shaping else self.shapes(times, angles, rates)
+            made = StackedInstants(angles, rates, accelerations, shapes)
+            found = self._kept.stack(times, made)
+        return found
+
+    def shapes(self, times: FloatArray, angles: FloatArray, rates: FloatArray) -> StackedShapes:
+        """The wing at `times` (P,) s, `angles` and `rates` (P, A), as `shape` gives each."""
+        moving = np.arange(angles.shape[1]) >= self._turning
+        hinges = self._wing.segment.size
+        singly = [joint for joint in self._shaping if joint < hinges]
+        how = self._discretisation
+        shapes = wing_shapes(self._wing, moving * angles, moving * rates, *how, singly)
+        if not shapes.converged.all():
+            k = int(np.argmin(shapes.converged))
+            raise lifting_line_lost(self._bird, float(times[k]), angles[k])
+        return shapes
 
     def at(self, t: float) -> Instant:
         """What time t (s) determines; raises `StateError` if no lifting line fits the wing."""
-        instant = self._kept.get(t)
+        kept = self._kept.single
+        instant = kept.get(t)
         if instant is None:
-            if len(self._kept) >= _INSTANTS_KEPT:
-                self._kept.clear()
-            instant = self._kept[t] = self._made(t)
+            if len(kept) >= _INSTANTS_KEPT:
+                kept.clear()
+            instant = kept[t] = self._made(t)
         return instant
 
     def shape(self, t: float, angles: FloatArray, rates: FloatArray) -> WingShape:
@@ -96,7 +131,7 @@ class Instants:
 
     def _made(self, t: float) -> Instant:
         angles, rates, accelerations = driven(self._wing, t)
-        shape = self.shape(t, angles, rates) if self._turning else None
+        shape = None if self._shaping else self.shape(t, angles, rates)
         of_tree = np.concatenate([np.zeros(BODY_COORDINATES), accelerations, accelerations])
         for shared in (angles, rates, of_tree):
             shared.flags.writeable = False

@@ -19,18 +19,16 @@ from birdmb.models.gusts import Gust
 from birdmb.models.implicit import integrate_implicitly
 from birdmb.models.instants import Instant, Instants
 from birdmb.models.integration import Integration, Integrator, integration_for
-from birdmb.models.multibody_kernel import air_forces, body_velocity
+from birdmb.models.multibody_kernel import body_velocity, tree_forces
+from birdmb.models.rates_kernel import Motion
 from birdmb.models.rigid import RigidModel
 from birdmb.models.springs import has_two_sides, spring_torques, springs_of
 from birdmb.models.stepped_cycle import SteppedCycle
 from birdmb.models.tree_rates import TreeRates
-from birdmb.models.wing_model import (
-    BODY_SCALE,
-    BODY_STATES,
-    BODY_UNITS,
-    WingModel,
-)
+from birdmb.models.wing_model import BODY_SCALE, BODY_STATES, BODY_UNITS, WingModel
 from birdmb.topology import Bird
+from birdmb.wing.chain import joints_turning_the_whole
+from birdmb.wing.shape import WingShape
 
 _JOINT_SCALE = (0.5, 10.0)  # rad, rad/s
 _BEATS_TO_SETTLE = 6
@@ -77,10 +75,14 @@ class MultibodyModel(WingModel):
         self.state_units = BODY_UNITS[:free] + ("rad", "rad/s") * len(names)
         compliant = [joint.mode == "compliant" for joint in bird.joints]
         self._compliant = np.array(compliant + [True] * len(hinges), dtype=bool)
+        self._right_wing = slice(BODY_COORDINATES, BODY_COORDINATES + self._compliant.size)
         self._springs = springs_of(bird)
-        self.turning = self._joints_that_turn_the_wing_as_a_whole()
+        self.turning = joints_turning_the_whole(self.wing)
+        shaping = np.flatnonzero(self._compliant[self.turning :]) + self.turning
         self.prescribed = self._follow_drivers()
-        self._instants = Instants(bird, self.wing, self.discretisation, self.turning)
+        self._instants = Instants(
+            bird, self.wing, self.discretisation, self.turning, shaping.tolist()
+        )
         self._tree = TreeRates(
             bird, self.wing, self.turning, self.airframe, self.prescribed, self._instants
         )
@@ -184,15 +186,18 @@ class MultibodyModel(WingModel):
             if finite.any():
                 found[finite] = self.rates(times[finite], states[finite])
             return found
-        body = np.array([self.body_state(x) for x in states])
-        q, v = self._coordinates(times, body, states)
-        a = self._tree.accelerations(times, q, v, self.air_velocities(times))
-        u, w, pitch_rate, theta = body.T
+        body = np.empty((len(states), len(BODY_STATES)))
+        body[:] = states[:, :4] if self._body_states else self.body_state(states[0])
+        angles, rates, _ = driven_at(self.wing, times)
+        angles[:, self._compliant] = states[:, self._body_states :: 2]
+        rates[:, self._compliant] = states[:, self._body_states + 1 :: 2]
+        motion = Motion(body, angles, rates, self.air_velocities(times))
+        a = self._tree.accelerations(times, motion)
         found = np.empty(states.shape)
         if self._body_states:
-            c, s = np.cos(theta), np.sin(theta)
-            found[:, 0] = a[:, 0] * c - a[:, 1] * s - pitch_rate * w
-            found[:, 1] = a[:, 0] * s + a[:, 1] * c + pitch_rate * u
+            u, w, pitch_rate, _ = body.T
+            found[:, 0] = a[:, 0] - pitch_rate * w
+            found[:, 1] = a[:, 1] + pitch_rate * u
             found[:, 2], found[:, 3] = a[:, 2], pitch_rate
         found[:, self._body_states :: 2] = states[:, self._body_states + 1 :: 2]
         found[:, self._body_states + 1 :: 2] = a[:, BODY_COORDINATES if self._body_states else 0 :]
@@ -232,8 +237,9 @@ class MultibodyModel(WingModel):
         """
         state = np.asarray(x, dtype=float)
         _, forces = self.accelerations(t, state)
-        right = forces[BODY_COORDINATES : BODY_COORDINATES + self._compliant.size]
-        return right + self._spring_torques(self.instant(t), *self.joint_motion(t, state))
+        return forces[self._right_wing] + self._spring_torques(
+            self.instant(t), *self.joint_motion(t, state)
+        )
 
     def initial_guess(self) -> FloatArray:
         """State (n,) at t = 0: the rigid bird's, with the compliant joints settled about it.
@@ -289,23 +295,11 @@ class MultibodyModel(WingModel):
 
     def coordinates(self, t: float, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Coordinates and velocities (c,) of the tree, with X = Z = 0, of state x at time t."""
-        q, v = self._coordinates(np.array([t]), self.body_state(x)[None, :], x[None, :])
-        return q[0], v[0]
-
-    def _coordinates(
-        self, times: FloatArray, body: FloatArray, states: FloatArray
-    ) -> tuple[FloatArray, FloatArray]:
-        """Coordinates and velocities (K, c) of bodies (K, 4) and whole states (K, n)."""
-        u, w, pitch_rate, theta = body.T
+        u, w, pitch_rate, theta = self.body_state(x)
         c, s = np.cos(theta), np.sin(theta)
-        instants = [self.instant(t) for t in times.tolist()]
-        angles = np.array([instant.angles for instant in instants])
-        rates = np.array([instant.rates for instant in instants])
-        angles[:, self._compliant] = states[:, self._body_states :: 2]
-        rates[:, self._compliant] = states[:, self._body_states + 1 :: 2]
-        place = np.column_stack([np.zeros((len(times), 2)), theta])
-        motion = np.column_stack([u * c + w * s, -u * s + w * c, pitch_rate])
-        return np.hstack([place, angles, angles]), np.hstack([motion, rates, rates])
+        angles, rates = self.joint_motion(t, x)
+        place, motion = [0.0, 0.0, theta], [u * c + w * s, -u * s + w * c, pitch_rate]
+        return np.concatenate([place, angles, angles]), np.concatenate([motion, rates, rates])
 
     def _state(self, q: FloatArray, v: FloatArray, when: str) -> FloatArray:
         if not (np.isfinite(q).all() and np.isfinite(v).all()):
@@ -317,47 +311,35 @@ class MultibodyModel(WingModel):
         u, w = body_velocity(q[2], v[0], v[1])
         return self._own([u, w, v[2], q[2]], q[joints], v[joints])
 
-    def _joints_that_turn_the_wing_as_a_whole(self) -> int:
-        """How many joints at the shoulder only turn a shape that the other joints determine.
-
-        Zero, so that the shape must be computed for every state, if a compliant joint sits further
-        out or a feather is hinged, or if one follows a shoulder joint by another share than fully.
-        """
-        shoulder = int(np.count_nonzero(self.wing.segment == 0))
-        if self._compliant[shoulder:].any() or (self.wing.feather_share[:, :shoulder] != 1.0).any():
-            return 0
-        return shoulder if not self.wing.twist[:shoulder].any() else 0
-
     def instant(self, t: float) -> Instant:
         """What time t (s) alone determines."""
         return self._instants.at(t)
 
     def _forces(self, t: float, q: FloatArray, v: FloatArray) -> FloatArray:
         """Generalised forces (n,) of air, springs and dampers: Exudyn's user function."""
-        if not (np.isfinite(q).all() and np.isfinite(v).all()):
-            return np.full(q.size, np.nan)
-        joints = self._compliant.size
-        angles = q[BODY_COORDINATES : BODY_COORDINATES + joints]
-        rates = v[BODY_COORDINATES : BODY_COORDINATES + joints]
         instant = self.instant(t)
-        forward, down = self.air_velocity(t)
         with overflow_told(self.bird, f"the force of the air at t = {t:.4g} s"):
-            body, torques, clearance = air_forces(
+            forces, clearance = tree_forces(
                 self.wing,
-                instant.shape or self._instants.shape(t, angles, rates),
+                instant.shape or self._shape(t, q, v),
                 self.turning,
-                angles,
-                rates,
                 self.airframe,
-                q[2],
-                v[0] - forward,
-                v[1] - down,
-                v[2],
+                self._springs,
+                instant.angles,
+                instant.rates,
+                q,
+                v,
+                self.air_velocity(t),
             )
         if not clearance >= 0.0:
-            raise wing_misplaced(self.bird, t, angles, clearance)
-        torques += self._spring_torques(instant, angles, rates)
-        return np.concatenate([body, torques, torques])
+            raise wing_misplaced(self.bird, t, q[self._right_wing], clearance)
+        return np.asarray(forces)
+
+    def _shape(self, t: float, q: FloatArray, v: FloatArray) -> WingShape:
+        angles, rates = q[self._right_wing], v[self._right_wing]
+        if not (np.isfinite(angles).all() and np.isfinite(rates).all()):
+            angles, rates, _ = driven(self.wing, t)  # any will do: there are no forces
+        return self._instants.shape(t, angles, rates)
 
     def _spring_torques(self, driver: Instant, angles: FloatArray, rates: FloatArray) -> FloatArray:
         return spring_torques(self._springs, angles - driver.angles, rates - driver.rates)

@@ -1,21 +1,17 @@
-"""Accelerations of the multibody bird at many instants at once.
-
-Exudyn gives the mass matrix and what inertia and gravity leave on the left-hand side; air, springs,
-drivers and the partition into prescribed and free coordinates are one compiled call.
-"""
+"""Accelerations of the multibody bird at many instants at once, in one or two compiled calls."""
 
 import numpy as np
 
 from birdmb._typing import BoolArray, FloatArray
 from birdmb.aerodynamics.airframe import Airframe
-from birdmb.models.exudyn_tree import BODY_COORDINATES, TreeInertia
+from birdmb.models.exudyn_tree import BODY_COORDINATES, TreeInertia, tree_links
 from birdmb.models.failures import overflow_told, wing_misplaced
 from birdmb.models.instants import Instants
-from birdmb.models.rates_kernel import free_accelerations
+from birdmb.models.rates_kernel import Constants, Drivers, Motion, free_accelerations
+from birdmb.models.row_groups import groups_of
 from birdmb.models.springs import springs_of
 from birdmb.topology import Bird
 from birdmb.wing.arrays import WingArrays
-from birdmb.wing.stacked import stacked_shapes
 
 
 class TreeRates:
@@ -26,7 +22,7 @@ class TreeRates:
         wing: its wing.
         turning: how many joints at the shoulder turn the wing as a whole.
         frame: constants of the air, tail and body.
-        prescribed: which coordinates (c,) follow a given motion.
+        prescribed: which coordinates (c,) of the tree follow a given motion.
         instants: what time alone determines of the wing.
     """
 
@@ -39,56 +35,34 @@ class TreeRates:
         prescribed: BoolArray,
         instants: Instants,
     ) -> None:
-        self._bird, self._wing = bird, wing
-        self._turning, self._frame, self._prescribed = turning, frame, prescribed
-        self._instants = instants
-        self._right_wing = slice(BODY_COORDINATES, (prescribed.size + BODY_COORDINATES) // 2)
-        self._springs = springs_of(bird)
+        self._bird, self._turning, self._instants = bird, turning, instants
+        right = prescribed[: (prescribed.size + BODY_COORDINATES) // 2]
+        self._constants = Constants(wing, tree_links(bird), frame, springs_of(bird), right, turning)
         self.inertia = TreeInertia(bird)
 
-    def accelerations(
-        self, times: FloatArray, q: FloatArray, v: FloatArray, air: FloatArray
-    ) -> FloatArray:
+    def accelerations(self, times: FloatArray, motion: Motion) -> FloatArray:
         """Accelerations (K, F) of the free coordinates of body and right wing.
 
-        At `times` (K,) s, coordinates q and velocities v (K, c) of the tree, and velocities `air`
-        (K, 2) m/s of the air in the world, forward and down.
+        At `times` (K,) s. The body's are in space, in body axes.
 
         Raises:
             StateError: no lifting line fits the wing, the wings meet, or the motion is beyond
                 floating point.
         """
-        distinct, which = np.unique(times, return_inverse=True)
+        distinct, time_of = np.unique(times, return_inverse=True)
         instants = self._instants.stacked(distinct)
-        shapes, shape_of = instants.shapes, which
+        shapes, shape_of = instants.shapes, time_of
         if shapes is None:
-            angles, rates = (moving[:, self._right_wing] for moving in (q, v))
-            each = zip(times.tolist(), angles, rates, strict=True)
-            shapes = stacked_shapes([self._instants.shape(*moving) for moving in each])
-            shape_of = np.arange(len(times))
-        mass, bias = self.inertia.at(q, v)
+            alike = groups_of(time_of, motion.angles[:, self._turning :])
+            first, shape_of = alike.first, alike.of
+            shapes = self._instants.shapes(times[first], motion.angles[first], motion.rates[first])
+        drivers = Drivers(instants.angles, instants.rates, instants.accelerations)
         with overflow_told(self._bird, f"the acceleration at t = {times[0]:.4g} s"):
             found, clearance = free_accelerations(
-                self._wing,
-                shapes,
-                shape_of,
-                self._turning,
-                self._frame,
-                self._springs,
-                self._prescribed,
-                q,
-                v,
-                instants.angles[which],
-                instants.rates[which],
-                instants.accelerations[which],
-                air,
-                mass,
-                bias,
+                self._constants, shapes, shape_of, time_of, drivers, motion
             )
         misplaced = ~(clearance >= 0.0)
         if misplaced.any():
             k = int(np.argmax(misplaced))
-            raise wing_misplaced(
-                self._bird, float(times[k]), q[k, self._right_wing], float(clearance[k])
-            )
+            raise wing_misplaced(self._bird, float(times[k]), motion.angles[k], float(clearance[k]))
         return found

@@ -9,40 +9,68 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from birdmb._typing import ComplexArray, FloatArray
-from birdmb.orbits.collocation import Collocated, CollocationEquations
+from birdmb.orbits.collocation import Collocated, CollocationEquations, more_nodes
 from birdmb.orbits.linearisation import trivial_mode
 from birdmb.orbits.multipliers import Spectrum, product
 from birdmb.orbits.periodic import periodic_multipliers
+from birdmb.orbits.trigonometric import resampled
 from birdmb.orbits.variational import flow_jacobians
 
 # The finer multipliers are better, not exact.
-_ERROR_PER_DIFFERENCE = 2.0
+_ERROR_PER_DIFFERENCE = 3.0
+# Errors below so many times the accuracy of the states, relative to multipliers above 1, are not
+# worth more derivatives.
+_GOOD_PER_ACCURACY = 10.0
+# More instants that leave more than this part of the error meet another one, as of differences.
+_FALLING = 0.5
+_MOST_INSTANTS = 1025
 
 
 @dataclass(frozen=True)
 class _Linearised:
+    equations: CollocationEquations
+    u: FloatArray
     factors: FloatArray
     spectrum: Spectrum
 
 
-def linearise_collocated(found: Collocated, derivative_gap: float = 0.0) -> dict[str, Any]:
+def linearise_collocated(
+    found: Collocated, accuracy: float, derivative_gap: float = 0.0
+) -> dict[str, Any]:
     """Linearise the rates along a collocated orbit.
 
     The multipliers are those of the derivatives at its N nodes. Their error bounds hold what the
-    solution and its derivatives on half as many nodes again make of them (twice the difference,
-    each multiplier paired with its nearest), the differencing of the right-hand side, the stages of
-    the variational equation and the round-off of the eigenvalues. `derivative_gap` is by how much a
-    derivative that the model gives contradicts the differences that are taken instead.
+    solution and its derivatives on half as many nodes again make of them (three times the
+    difference, each multiplier paired with its nearest), the differencing of the right-hand side,
+    the stages of the variational equation and the round-off of the eigenvalues. Where the
+    derivatives along a smooth orbit are rougher than it is, as those of stiff joints are, they are
+    taken at more instants of it, as long as that makes the bounds smaller and they are above ten
+    times the `accuracy` of the states; what the error of the orbit makes is then added.
+    `derivative_gap` is by how much a derivative that the model gives contradicts the differences
+    that are taken instead.
 
     Returns:
-        The fields of a `FloquetResult`, by name.
+        The fields of a `LimitCycle` but for its search, by name.
     """
-    equations = found.equations
-    points, period = equations.unpack(found.u)
-    coarse = _linearised(equations, found.u)
-    fine = _linearised(found.finer, found.finer_u)
-    spectrum, scale = coarse.spectrum, equations.rhs.scale
-    apart = _distances(spectrum.multipliers, fine.spectrum.multipliers)
+    at = _linearised(found.equations, found.u)
+    finer = _linearised(found.finer, found.finer_u)
+    errors = _errors(at.spectrum, finer.spectrum)
+    good = _GOOD_PER_ACCURACY * accuracy
+    while not _relative(at.spectrum, errors) <= good:
+        if more_nodes(finer.equations.nodes) > _MOST_INSTANTS:
+            break
+        finest = _linearised(*_on_more(finer))
+        better = _errors(finer.spectrum, finest.spectrum)
+        if not _relative(finer.spectrum, better) < _FALLING * _relative(at.spectrum, errors):
+            break
+        at, finer, errors = finer, finest, better
+    if at.equations is not found.equations:
+        # Of one orbit at different instants, its own error does not show.
+        rough = _linearised(at.equations, _on(at.equations, found.equations, found.u))
+        errors = errors + _distances(at.spectrum.multipliers, rough.spectrum.multipliers)
+    equations, spectrum = at.equations, at.spectrum
+    points, period = equations.unpack(at.u)
+    scale = equations.rhs.scale
     velocity = equations.rates(points, period)[0] * scale
     return {
         "model": equations.rhs.model,
@@ -52,11 +80,12 @@ def linearise_collocated(found: Collocated, derivative_gap: float = 0.0) -> dict
         "start_time": equations.start,
         "points": points * scale,
         "state_scale": scale,
-        "residual": found.state_error * float(scale.max()),
-        "monodromy": product(coarse.factors),
-        "segment_jacobians": coarse.factors,
+        "residual": found.equations.closure(found.residual),
+        "nodes": found.equations.nodes,
+        "monodromy": product(at.factors),
+        "segment_jacobians": at.factors,
         "multipliers": spectrum.multipliers,
-        "multiplier_errors": spectrum.errors + _ERROR_PER_DIFFERENCE * apart,
+        "multiplier_errors": errors,
         "modes": spectrum.modes,
         "left_modes": spectrum.left_modes,
         "modes_along": spectrum.modes_along,
@@ -80,7 +109,31 @@ def _linearised(equations: CollocationEquations, u: FloatArray) -> _Linearised:
     factor_errors = factor_errors + step * 0.5 * (size @ errors + errors @ size)
     units = np.divide.outer(rhs.scale, rhs.scale)
     spectrum = periodic_multipliers(factors * units, factor_errors * units, rhs.scale)
-    return _Linearised(factors * units, spectrum)
+    return _Linearised(equations, u, factors * units, spectrum)
+
+
+def _on_more(at: _Linearised) -> tuple[CollocationEquations, FloatArray]:
+    equations = at.equations.with_nodes(more_nodes(at.equations.nodes))
+    return equations, _on(equations, at.equations, at.u)
+
+
+def _on(equations: CollocationEquations, given: CollocationEquations, u: FloatArray) -> FloatArray:
+    """Unknowns of other equations for the orbit that has unknowns `u` of those given."""
+    points, period = given.unpack(u)
+    return equations.pack(resampled(points, equations.nodes), period)
+
+
+def _errors(spectrum: Spectrum, finer: Spectrum) -> FloatArray:
+    apart = _distances(spectrum.multipliers, finer.multipliers)
+    # Of one that happens to be right by chance, the others tell.
+    size = np.maximum(np.abs(spectrum.multipliers), np.finfo(float).tiny)
+    typical = size * float((apart / np.maximum(size, 1.0)).max())
+    return np.asarray(spectrum.errors + _ERROR_PER_DIFFERENCE * np.maximum(apart, typical))
+
+
+def _relative(spectrum: Spectrum, errors: FloatArray) -> float:
+    """Largest error, relative to multipliers above 1."""
+    return float((errors / np.maximum(1.0, np.abs(spectrum.multipliers))).max())
 
 
 def _distances(one: ComplexArray, other: ComplexArray) -> FloatArray:

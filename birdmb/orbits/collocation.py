@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from scipy.linalg import block_diag, lapack
+from scipy.linalg import lapack
 
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
@@ -22,6 +22,10 @@ _GROWTH = 1.5
 # Harmonics that decay more slowly than this from one number of nodes to the next will not reach
 # the accuracy: 1.5 times the nodes take a smooth orbit's error down by far more.
 _SLOWEST_DECAY = 0.5
+# On fewer numbers of nodes an error need not fall off yet.
+_RUNGS_TO_JUDGE = 4
+# A corrected solution is better, not exact.
+_ERROR_PER_CORRECTION = 2.0
 # Round-off of the residual, in units of machine precision times its largest term.
 _NOISE = 100.0
 
@@ -113,10 +117,11 @@ class CollocationEquations:
     def assemble(self, u: FloatArray, rate_jacobians: FloatArray) -> FloatArray:
         """Derivative of the residual from the derivatives (N, n, n) of the rates."""
         points, period = self.unpack(u)
-        n = points.shape[1]
-        matrix = np.kron(differentiation_matrix(self.nodes), np.eye(n))
-        matrix -= period * block_diag(*rate_jacobians)
-        matrix /= np.sqrt(self.nodes)
+        nodes, n = points.shape
+        blocks = differentiation_matrix(nodes)[:, None, :, None] * np.eye(n)[None, :, None, :]
+        at = np.arange(nodes)
+        blocks[at, :, at, :] -= period * rate_jacobians
+        matrix = blocks.reshape(nodes * n, nodes * n) / np.sqrt(nodes)
         if not self.autonomous:
             return np.asarray(matrix)
         rates = self.rates(points, period)
@@ -142,7 +147,8 @@ class Collocated:
         residual: of the equations.
         finer: the equations on half as many nodes again.
         finer_u: unknowns there, of this solution corrected by one Newton step.
-        state_error: largest correction, in units of the state scale.
+        state_error: bound of the error of the states, in units of their scale: twice the largest
+            correction.
         iterations: steps of Newton's method on all numbers of nodes.
     """
 
@@ -194,7 +200,7 @@ def collocate(
     first: FloatArray | None = None
 
     def record(iteration: Iteration) -> None:
-        history.append(replace(iteration, number=len(history)))
+        history.append(replace(iteration, number=len(history), nodes=equations.nodes))
         if callback is not None:
             callback(history[-1])
 
@@ -241,7 +247,7 @@ def _correction(
     step = -lapack.dgetrs(lu, pivots, residual)[0]
     if singular or not np.isfinite(step).all():
         step = -np.linalg.lstsq(matrix, residual)[0]
-    return finer, start + step, float(np.abs(step).max())
+    return finer, start + step, _ERROR_PER_CORRECTION * float(np.abs(step).max())
 
 
 def _refuse_rough(
@@ -254,8 +260,9 @@ def _refuse_rough(
 ) -> None:
     nodes = equations.nodes
     following = more_nodes(nodes)
-    slow = len(errors) > 2 and errors[-1] > _SLOWEST_DECAY * errors[-3]
-    hopeless = len(errors) > 2 and _needed(nodes, errors, accuracy) > most_nodes
+    known = len(errors) >= _RUNGS_TO_JUDGE
+    slow = known and errors[-1] > _SLOWEST_DECAY * errors[-3]
+    hopeless = known and _needed(nodes, errors, accuracy) > most_nodes
     if following <= most_nodes and not slow and not hopeless:
         return
     x, _ = equations.start_and_period(u)
@@ -280,7 +287,7 @@ def _needed(nodes: int, errors: list[float], accuracy: float) -> float:
     Taken as algebraic: a spectral decay only gets faster.
     """
     last, before = errors[-1], errors[-3]
-    order = np.log(before / last) / np.log(_GROWTH**2)
-    # Errors that hardly fall off ask for more nodes than a float can count.
-    with np.errstate(over="ignore"):
-        return float(nodes * np.exp(np.log(last / accuracy) / max(order, 1e-3)))
+    if not last < before:
+        return math.inf
+    rungs = 2 * math.log(last / accuracy) / math.log(before / last)
+    return nodes * math.exp(min(rungs * math.log(_GROWTH), 100.0))

@@ -101,11 +101,11 @@ def search_by_collocation(
         found = search(path, period, scale)
         iterations += found.iterations
     _refuse_equilibrium(found, iterations)
-    fields = linearise_collocated(found, gap)
+    fields = linearise_collocated(found, accuracy, gap)
     kind = model.limit_cycle_type if isinstance(model, HasLimitCycleType) else LimitCycle
     return cast(
         "LimitCycle",
-        kind(**fields, iterations=iterations, method="collocation", state_error=found.state_error),
+        kind(**fields, iterations=iterations, state_error=found.state_error),
     )
 
 

@@ -22,26 +22,27 @@ class LimitCycle(FloquetResult):
     """A periodic orbit found by `find_limit_cycle`, with its Floquet multipliers.
 
     A model may name its own subclass as `limit_cycle_type`, to add what it knows of its orbits. Of
-    a collocated orbit, `points` are the states at the nodes, `segment_jacobians` lead from node to
-    node, and `residual` is `state_error` in the units of the largest scale.
+    a collocated orbit, `points` are the states at its nodes, or at more instants where the
+    multipliers need them, `segment_jacobians` lead from one of them to the next, and `residual` is
+    the largest mismatch of slopes at a node, in the units of the states per period.
 
     Attributes:
         iterations: the accepted iterations of the search, the guess first.
-        method: "collocation" or "shooting".
         method_reason: why shooting was taken; empty for collocation.
+        nodes: number of collocation nodes; `None` for shooting.
         state_error: largest error of the states of a collocated orbit, in units of the state scale:
             what half as many nodes again make of it; 0 for shooting.
     """
 
     iterations: tuple[Iteration, ...]
-    method: OrbitMethod = "shooting"
     method_reason: str = ""
+    nodes: int | None = None
     state_error: float = 0.0
 
     @property
-    def nodes(self) -> int | None:
-        """Number of collocation nodes; `None` for shooting."""
-        return len(self.points) if self.method == "collocation" else None
+    def method(self) -> OrbitMethod:
+        """By which method it was found."""
+        return "shooting" if self.nodes is None else "collocation"
 
     @property
     def sort_key(self) -> tuple[float, ...]:

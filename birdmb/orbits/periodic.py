@@ -20,7 +20,10 @@ _EPS = float(np.finfo(float).eps)
 # Moduli nearer than this stay in one block: a sweep shrinks what couples two blocks by this ratio,
 # and the product of a block loses no more digits than its moduli differ by.
 _BLOCK_RATIO = 0.5
-_SWEEPS = 60
+_MOST_SWEEPS = 60
+_SWEEPS_TO_SETTLE = 4
+# Logarithm of what is left of other blocks in a subspace.
+_LOG_LEFT = float(np.log(1e-18))
 # A product that stretches no direction more than this against another keeps 12 digits of each.
 _GROUP_CONDITION = 1e4
 
@@ -40,8 +43,8 @@ def periodic_multipliers(factors: FloatArray, errors: FloatArray, scale: FloatAr
     `product_multipliers`, so take as many segments as -log10 of the smallest multiplier over 5.
     An accuracy of the Jacobians themselves of 1e-10, say, still bounds what is left of a
     multiplier that a single factor reduces by 1e-10; the error bounds say so. Neighbouring factors
-    are multiplied as long as their product stays well conditioned. Costs 120 QR factorisations a
-    group of factors.
+    are multiplied as long as their product stays well conditioned. Costs up to 120 QR
+    factorisations a group of factors.
     """
     units = np.divide.outer(scale, scale)
     every, every_bound = factors / units, errors / units
@@ -49,10 +52,14 @@ def periodic_multipliers(factors: FloatArray, errors: FloatArray, scale: FloatAr
     scaled = np.array([product(every[group]) for group in groups])
     bounds = np.array([product_error(every[group], every_bound[group]) for group in groups])
     n = len(scale)
-    forward, growth = _sweep(scaled)
-    # Reversed, the transposes start at the end of the orbit: put their points in order again.
-    backward = np.roll(_sweep(np.swapaxes(scaled[::-1], 1, 2))[0][::-1], 1, axis=0)
-    borders = _block_borders(growth)
+    if len(groups) == 1:
+        forward = backward = np.eye(n)[None]
+        borders = [0, n]
+    else:
+        forward, growth = _sweep(scaled)
+        # Reversed, the transposes start at the end of the orbit: put their points in order again.
+        backward = np.roll(_sweep(np.swapaxes(scaled[::-1], 1, 2))[0][::-1], 1, axis=0)
+        borders = _block_borders(growth)
     round_off = n * _EPS * np.linalg.norm(scaled, axis=(1, 2))[:, None, None]
 
     values, value_errors = np.empty(n, complex), np.empty(n)
@@ -83,14 +90,20 @@ def _sweep(factors: FloatArray) -> tuple[FloatArray, FloatArray]:
     # A start in general position: none of its directions may lie in an invariant subspace.
     basis = np.linalg.qr(np.random.default_rng(0).standard_normal((n, n)))[0]
     bases, growth = np.empty((m, n, n)), np.zeros(n)
-    for _ in range(_SWEEPS):
+    for sweeps in range(1, _MOST_SWEEPS + 1):
         for k in range(m):
             bases[k] = basis
             # numpy's own door to the same two routines costs more than they do.
             packed, tau, _, _ = lapack.dgeqrf(factors[k] @ basis)
             growth += np.log(np.maximum(np.abs(np.diag(packed)), np.finfo(float).tiny))
             basis = lapack.dorgqr(packed, tau)[0]
-    return bases, growth / _SWEEPS
+        gaps = np.diff(growth / sweeps)
+        # What a subspace holds of the others shrinks by the ratio of the moduli in each sweep.
+        between = gaps[gaps < np.log(_BLOCK_RATIO)]
+        settled = sweeps - _SWEEPS_TO_SETTLE
+        if settled > 0 and (settled * between < _LOG_LEFT).all():
+            break
+    return bases, growth / sweeps
 
 
 def _block_borders(growth: FloatArray) -> list[int]:
@@ -133,11 +146,17 @@ def _carry(
 
 def _groups(factors: FloatArray) -> list[slice]:
     """Runs of neighbouring factors whose product stretches directions not too differently."""
-    groups, first, running = [], 0, np.eye(factors.shape[1])
-    for k, factor in enumerate(factors):
-        longer = factor @ running
-        if k > first and not np.linalg.cond(longer) <= _GROUP_CONDITION:
-            groups.append(slice(first, k))
-            first, longer = k, factor
-        running = longer
+    try:
+        inverses = np.linalg.inv(factors)
+    except np.linalg.LinAlgError:
+        inverses = np.full_like(factors, np.inf)
+    groups, first = [], 0
+    running = backward = np.eye(factors.shape[1])
+    with np.errstate(over="ignore", invalid="ignore"):
+        for k, (factor, inverse) in enumerate(zip(factors, inverses, strict=True)):
+            longer, back = factor @ running, backward @ inverse
+            if k > first and not np.linalg.norm(longer) * np.linalg.norm(back) <= _GROUP_CONDITION:
+                groups.append(slice(first, k))
+                first, longer, back = k, factor, inverse
+            running, backward = longer, back
     return [*groups, slice(first, len(factors))]

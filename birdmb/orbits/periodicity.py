@@ -9,7 +9,8 @@ import numpy as np
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
 from birdmb.orbits.errors import ArgumentError
-from birdmb.orbits.problem import HasRhs, Model
+from birdmb.orbits.problem import HasRates, HasRhs, Model
+from birdmb.orbits.right_hand_side import batched_rates
 
 # A period typed with eight digits is off by less than this; one of another forcing by far more.
 _SAME_RHS = 1e-7
@@ -71,7 +72,7 @@ def turns(
         if np.abs(turned - states[0]).max() > allowed:
             continue
         if model.period is None or (
-            isinstance(model, HasRhs)
+            isinstance(model, HasRates | HasRhs)
             and _rhs_repeats(
                 model, states[0, 0] * scale, scale, start_time, period, period / number
             )
@@ -83,12 +84,12 @@ def turns(
 def _rhs_repeats(
     model: Model, x: FloatArray, scale: FloatArray, start: float, period: float, shift: float
 ) -> bool:
-    if not isinstance(model, HasRhs):
+    if not isinstance(model, HasRates | HasRhs):
         return True
     times = start + period * _PHASES
     try:
-        now = np.array([model.rhs(float(t), x) for t in times], float)
-        then = np.array([model.rhs(float(t) + shift, x) for t in times], float)
+        at = np.concatenate([times, times + shift])
+        now, then = np.split(batched_rates(model)(at, np.tile(x, (len(at), 1))), 2)
     except StateError:
         return True
     late = float(np.finfo(float).eps * np.abs(times).max() / period)

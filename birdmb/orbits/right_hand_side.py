@@ -2,21 +2,40 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
-from birdmb.orbits.problem import HasJacobian, HasRateJacobians, HasRates, HasRhs, Model, Scalable
+from birdmb.orbits.problem import HasJacobian, HasRateJacobians, HasRates, HasRhs, Scalable
 
 _EPS = float(np.finfo(float).eps)
 # Where truncation and round-off of a central difference balance, in units of the state scale.
 _STEP = _EPS ** (1 / 3)
-# A derivative that a model gives may differ from differences by this part of its size, and more
-# only if the right-hand side bends or jumps within a step, or if it is wrong.
-_AGREES = 1e-4
-_MARGIN = 3.0
+# By how much a derivative must be off differences beyond what these are known to.
+_MARGIN = 10.0
+# Of a derivative that a model gives, in units of machine precision times its largest entry.
+_ROUND_OFF = 10.0
+_CHECKING_STEPS = (1e-3, 3e-5, 1e-6)
+# Differences that are known to no more than this part of themselves do not decide.
+_SHARP = 1e-3
+
+
+Batched = Callable[[FloatArray, FloatArray], FloatArray]
+
+
+def batched_rates(model: HasRates | HasRhs) -> Batched:
+    """Function of times (K,) and states (K, n) that returns the model's rates (K, n)."""
+    if isinstance(model, HasRates):
+        return model.rates
+    rhs = model.rhs
+    return lambda times, x: np.array(
+        [rhs(*at) for at in zip(times.tolist(), x, strict=True)], float
+    )
 
 
 @dataclass(frozen=True)
@@ -24,12 +43,12 @@ class RightHandSide:
     """Scaled rates f(t, y) of a model, with y = x / scale, at K instants in one call.
 
     Attributes:
-        model: the model; it is taken on the scale, if it can be.
+        model: a `Model` with `rates` or `rhs`; it is taken on the scale, if it can be.
         scale: typical sizes (n,) of its states.
         by_differences: whether derivatives come from differences though the model has its own.
     """
 
-    model: Model
+    model: Any
     scale: FloatArray
     by_differences: bool = False
 
@@ -38,11 +57,27 @@ class RightHandSide:
         if isinstance(self.model, Scalable):
             object.__setattr__(self, "model", self.model.scaled_to(self.scale))
 
-    @property
+    @cached_property
     def has_derivative(self) -> bool:
         """Whether derivatives are the model's own."""
         able = isinstance(self.model, HasRateJacobians | HasJacobian)
         return able and not self.by_differences
+
+    # Protocols are slow to check, and rates are asked for often.
+    @cached_property
+    def _rates(self) -> Batched:
+        return batched_rates(self.model)
+
+    @cached_property
+    def _jacobians(self) -> Batched:
+        model = self.model
+        if isinstance(model, HasRateJacobians):
+            return model.rate_jacobians
+        assert isinstance(model, HasJacobian)
+        jacobian = model.jacobian
+        return lambda times, x: np.array(
+            [jacobian(*at) for at in zip(times.tolist(), x, strict=True)], float
+        )
 
     def rates(self, times: FloatArray, states: FloatArray) -> FloatArray:
         """Rates (K, n) per second at `times` (K,) in scaled `states` (K, n).
@@ -50,16 +85,8 @@ class RightHandSide:
         Raises:
             StateError: the right-hand side fails or is not finite.
         """
-        model = self.model
         with np.errstate(all="ignore"):
-            x = states * self.scale
-            if isinstance(model, HasRates):
-                found = np.asarray(model.rates(times, x), float)
-            elif isinstance(model, HasRhs):
-                found = np.array([model.rhs(*at) for at in zip(times.tolist(), x, strict=True)])
-            else:
-                raise TypeError("the model has no right-hand side.")
-            found = found / self.scale
+            found = np.asarray(self._rates(times, states * self.scale), float) / self.scale
         if not np.isfinite(found).all():
             k = int(np.argmin(np.isfinite(found).all(axis=1)))
             raise StateError(f"The right-hand side at t = {times[k]:.6g} is not finite.")
@@ -67,31 +94,22 @@ class RightHandSide:
 
     def jacobians(self, times: FloatArray, states: FloatArray) -> FloatArray:
         """Derivatives (K, n, n) of the rates by the scaled states; raises `StateError`."""
-        model, units = self.model, np.divide.outer(self.scale, self.scale)
         if not self.has_derivative:
             return self._differences(times, states)
-        x = states * self.scale
+        units = np.divide.outer(self.scale, self.scale)
         with np.errstate(all="ignore"):
-            if isinstance(model, HasRateJacobians):
-                found = np.asarray(model.rate_jacobians(times, x), float)
-            else:
-                assert isinstance(model, HasJacobian)
-                each = zip(times.tolist(), x, strict=True)
-                found = np.array([model.jacobian(*at) for at in each], float)
+            found = np.asarray(self._jacobians(times, states * self.scale), float)
         if not np.isfinite(found).all():
             raise StateError("The derivative of the right-hand side is not finite.")
         return np.asarray(found / units)
 
     def _differences(self, times: FloatArray, states: FloatArray) -> FloatArray:
-        count, n = states.shape
-        shifts = _STEP * np.concatenate([np.eye(n), -np.eye(n)])
-        rows = (states[:, None, :] + shifts).reshape(-1, n)
-        ends = self.rates(np.repeat(times, 2 * n), rows).reshape(count, 2 * n, n)
-        taken = np.einsum("kjj->kj", rows.reshape(count, 2 * n, n)[:, :n] - states[:, None, :])
-        taken = taken + np.einsum(
-            "kjj->kj", states[:, None, :] - rows.reshape(count, 2 * n, n)[:, n:]
-        )
-        return np.swapaxes((ends[:, :n] - ends[:, n:]) / taken[:, :, None], 1, 2)
+        n = states.shape[1]
+        middle, shifts = states[:, None, :], _STEP * np.eye(n)
+        rows = np.stack([middle + shifts, middle - shifts], axis=1)
+        taken = np.einsum("kjj->kj", rows[:, 0] - rows[:, 1])
+        ends = self.rates(np.repeat(times, 2 * n), rows.reshape(-1, n)).reshape(rows.shape)
+        return np.swapaxes((ends[:, 0] - ends[:, 1]) / taken[:, :, None], 1, 2)
 
     def jacobian_errors(
         self, times: FloatArray, states: FloatArray, jacobians: FloatArray
@@ -101,27 +119,40 @@ class RightHandSide:
         Along one direction in general position, over twice the step: what the derivative and the
         difference are apart, of each rate, is laid to each of its derivatives.
         """
+        if self.has_derivative:
+            size = np.abs(jacobians).max(axis=(1, 2), keepdims=True)
+            return np.broadcast_to(_ROUND_OFF * _EPS * size, jacobians.shape)
         direction = _direction(states)
         # A step grows fourfold in truncation when it doubles, so that what differences of the
         # single step are off by is a third of what is seen.
         seen = self._along(times, states, direction, 2 * _STEP)
         gap = np.abs(seen - np.einsum("kij,kj->ki", jacobians, direction))
         noise = _EPS / _STEP * np.abs(self.rates(times, states)).max(axis=1, keepdims=True)
-        own = 0.0 if self.has_derivative else gap
-        return np.broadcast_to((own + noise)[:, :, None], jacobians.shape)
+        return np.broadcast_to((gap + noise)[:, :, None], jacobians.shape)
 
     def derivative_gap(self, times: FloatArray, states: FloatArray, jacobians: FloatArray) -> float:
-        """By how much the model's own derivative contradicts differences; 0 where they agree."""
+        """By how much the model's own derivative contradicts differences; 0 where it does not.
+
+        Along one direction in general position, over shorter steps where the right-hand side bends
+        within longer ones.
+        """
         direction = _direction(states)
         claimed = np.einsum("kij,kj->ki", jacobians, direction)
-        near, far = (
-            self._along(times, states, direction, step) for step in (10 * _STEP, 20 * _STEP)
-        )
-        size = max(1.0, float(np.abs(claimed).max()))
-        gap = np.abs(near - claimed)
-        # Where the right-hand side bends within the step, differences decide nothing.
-        own = _MARGIN * np.abs(near - far) + _AGREES * size
-        return float(gap.max()) if (gap > own).any() else 0.0
+        size = 1.0 + float(np.abs(claimed).max())
+        rates = float(np.abs(self.rates(times, states)).max())
+        apart = 0.0
+        for step in _CHECKING_STEPS:
+            near, far = (self._along(times, states, direction, h) for h in (step, 2 * step))
+            gap = np.abs((4 * near - far) / 3 - claimed)
+            truncation = np.abs(near - far)
+            # Richardson's extrapolation is off by about the square of what it takes off.
+            extrapolated = truncation * np.minimum(1.0, 10 * truncation / size)
+            noise = _EPS * (rates + size) / step
+            if (gap > _MARGIN * (extrapolated + noise)).any():
+                apart = max(apart, float(gap.max()))
+            elif truncation.max() <= _SHARP * size:
+                return 0.0
+        return apart
 
     def _along(
         self, times: FloatArray, states: FloatArray, direction: FloatArray, step: float

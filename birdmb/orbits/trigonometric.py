@@ -6,17 +6,21 @@ Methods in MATLAB (2000), chapter 3; Boyd, Chebyshev and Fourier Spectral Method
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 
 from birdmb._typing import FloatArray
 
 
+@functools.lru_cache(maxsize=16)
 def differentiation_matrix(nodes: int) -> FloatArray:
     """Matrix (N, N) from values at N nodes to the interpolant's derivatives by phase there."""
     apart = np.subtract.outer(np.arange(nodes), np.arange(nodes))
     with np.errstate(divide="ignore"):
         matrix = np.pi * (-1.0) ** apart / np.sin(np.pi * apart / nodes)
     np.fill_diagonal(matrix, 0.0)
+    matrix.flags.writeable = False
     return np.asarray(matrix)
 
 
@@ -40,6 +44,16 @@ def resampled(values: FloatArray, nodes: int) -> FloatArray:
     if nodes == len(values):
         return values
     return interpolated(values, np.arange(nodes) / nodes)
+
+
+def between_nodes(values: FloatArray, parts: FloatArray) -> FloatArray:
+    """Values (N, K, ...) of the interpolant, `parts` (K,) of an interval after each of N nodes."""
+    nodes, count = len(values), len(parts)
+    harmonics = np.fft.rfft(values.reshape(nodes, -1), axis=0)
+    turns = np.exp(2j * np.pi / nodes * np.multiply.outer(np.arange(len(harmonics)), parts))
+    turned = harmonics[:, None, :] * turns[:, :, None]
+    shifted = np.fft.irfft(turned, n=nodes, axis=0)
+    return np.asarray(shifted.reshape(nodes, count, *values.shape[1:]))
 
 
 def without_drift(path: FloatArray) -> FloatArray:

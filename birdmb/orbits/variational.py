@@ -14,7 +14,7 @@ import numpy as np
 from scipy.special import eval_legendre, roots_jacobi
 
 from birdmb._typing import FloatArray
-from birdmb.orbits.trigonometric import interpolated
+from birdmb.orbits.trigonometric import between_nodes
 
 _STAGES, _FEWER_STAGES = 9, 7
 # Up to here nine stages are exact to a part in 1e12; beyond, an interval is divided.
@@ -39,8 +39,8 @@ def _integrated(rate_jacobians: FloatArray, stages: int, parts: int) -> FloatArr
     nodes, n, _ = rate_jacobians.shape
     count = nodes * parts
     abscissae, weights = _radau(stages)
-    phases = (np.arange(count)[:, None] + abscissae).ravel() / count
-    along = interpolated(rate_jacobians, phases).reshape(count, stages, n, n) / count
+    within = (np.arange(parts)[:, None] + abscissae).ravel() / parts
+    along = between_nodes(rate_jacobians, within).reshape(count, stages, n, n) / count
     # Slopes K_i at the stages: K_i = A_i (I + sum_j w_ij K_j).
     coupled = np.einsum("kiab,ij->kiajb", along, weights).reshape(count, stages * n, stages * n)
     slopes = np.linalg.solve(np.eye(stages * n) - coupled, along.reshape(count, stages * n, n))

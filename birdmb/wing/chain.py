@@ -42,3 +42,13 @@ def frame_after(wing: WingArrays, angles: FloatArray, joints: int) -> FloatArray
     for j in range(joints):
         R = rotate_about(R, wing.axis[j], angles[j])
     return R
+
+
+def joints_turning_the_whole(wing: WingArrays) -> int:
+    """How many joints at the shoulder only turn a shape that the other joints determine.
+
+    Zero if a feather follows one of them by another share than fully, or one is a twist.
+    """
+    shoulder = int(np.count_nonzero(wing.segment == 0))
+    whole = (wing.feather_share[:, :shoulder] == 1.0).all()
+    return shoulder if whole and not wing.twist[:shoulder].any() else 0

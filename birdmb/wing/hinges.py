@@ -1,4 +1,4 @@
-"""The lifting line with feathers on hinges: also how fast each hinge moves it.
+"""The lifting line and how fast single joints and hinges move it.
 
 A load on the line has the generalised force load . (velocity per rate of a hinge) on that hinge,
 by virtual work. These velocities are exact derivatives, by the complex step of the wing's edges.
@@ -7,7 +7,7 @@ by virtual work. These velocities are exact derivatives, by the complex step of 
 import numpy as np
 
 from birdmb._kernels import kernel
-from birdmb._typing import Array, ComplexArray, FloatArray
+from birdmb._typing import Array, ComplexArray, FloatArray, IntArray
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.edges import COMPLEX_STEP, wing_edges
 from birdmb.wing.line import PairedEdges, line_to_follow, moved_line, solved_line
@@ -16,47 +16,42 @@ from birdmb.wing.one_step import one_step_line
 
 @kernel
 def orthogonal_wing(
-    wing: WingArrays, angles: ComplexArray, stations: int, rounding: float
+    wing: WingArrays, angles: ComplexArray, stations: int, rounding: float, moving: IntArray
 ) -> tuple[PairedEdges, Array, Array, FloatArray]:
     """Orthogonal line of a wing at `angles` (A,) rad, whose imaginary parts carry rates.
 
     Returns the paired edges, the leading edge's vertices (m, 3) m, the points (stations, 3) m from
-    which the span direction is taken and the velocities (H, N, 3) m of the N control points, every
-    second station, per rate of each hinge.
+    which the span direction is taken and the velocities (M, N, 3) m of the N control points, every
+    second station, per rate of each of the angles `moving` (M,).
     """
     leading, trailing = wing_edges(wing, angles)
     line = solved_line(leading, trailing, stations, rounding)
     pairs = moved_line(line, leading, trailing, rounding)
-    velocity = _no_velocity(wing, stations)
-    for h in range(velocity.shape[0]):
-        moving_leading, moving_trailing = wing_edges(wing, _one_hinge_moving(wing, angles, h))
-        velocity[h] = _control_velocity(moved_line(line, moving_leading, moving_trailing, rounding))
+    velocity = np.empty((moving.size, stations // 2, 3))
+    for m in range(moving.size):
+        moving_leading, moving_trailing = wing_edges(wing, _one_moving(angles, moving[m]))
+        velocity[m] = _control_velocity(moved_line(line, moving_leading, moving_trailing, rounding))
     return pairs, leading, line_to_follow(line, pairs), velocity
 
 
 @kernel
 def one_step_wing(
-    wing: WingArrays, angles: ComplexArray, stations: int
+    wing: WingArrays, angles: ComplexArray, stations: int, moving: IntArray
 ) -> tuple[PairedEdges, Array, Array, FloatArray]:
     """As `orthogonal_wing` with the published line; see `one_step_line` about its direction."""
     leading, trailing = wing_edges(wing, angles)
     pairs, guide = one_step_line(leading, trailing, stations)
-    velocity = _no_velocity(wing, stations)
-    for h in range(velocity.shape[0]):
-        moving_leading, moving_trailing = wing_edges(wing, _one_hinge_moving(wing, angles, h))
-        velocity[h] = _control_velocity(one_step_line(moving_leading, moving_trailing, stations)[0])
+    velocity = np.empty((moving.size, stations // 2, 3))
+    for m in range(moving.size):
+        moving_leading, moving_trailing = wing_edges(wing, _one_moving(angles, moving[m]))
+        velocity[m] = _control_velocity(one_step_line(moving_leading, moving_trailing, stations)[0])
     return pairs, leading, guide, velocity
 
 
 @kernel
-def _no_velocity(wing: WingArrays, stations: int) -> FloatArray:
-    return np.zeros((wing.offset.size - wing.segment.size, stations // 2, 3))
-
-
-@kernel
-def _one_hinge_moving(wing: WingArrays, angles: ComplexArray, hinge: int) -> ComplexArray:
+def _one_moving(angles: ComplexArray, which: int) -> ComplexArray:
     moving = angles.real.astype(np.complex128)
-    moving[wing.segment.size + hinge] += 1j * COMPLEX_STEP
+    moving[which] += 1j * COMPLEX_STEP
     return moving
 
 

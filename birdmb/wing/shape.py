@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from birdmb._kernels import kernel
-from birdmb._typing import ComplexArray, FloatArray
+from birdmb._typing import ComplexArray, FloatArray, IntArray
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.edges import COMPLEX_STEP, HUMERUS, skeleton
 from birdmb.wing.hinges import one_step_wing, orthogonal_wing
@@ -93,7 +93,8 @@ def wing_shape(
     `published` takes the reference program's line instead of the orthogonal one.
     """
     try:
-        return shape_of_edges(wing, angles, rates, elements, rounding, published)
+        hinges = np.arange(wing.segment.size, wing.offset.size)
+        return shape_of_edges(wing, angles, rates, elements, rounding, published, hinges)[0]
     except ZeroDivisionError:  # a leg or a chord without length
         return _no_shape(wing, elements)
 
@@ -106,13 +107,20 @@ def shape_of_edges(
     elements: int,
     rounding: float,
     published: bool,
-) -> WingShape:
-    """As `wing_shape`, but raises `ZeroDivisionError` where an edge or a chord has no length."""
+    singly: IntArray,
+) -> tuple[WingShape, FloatArray]:
+    """As `wing_shape`, and velocities (M, N, 3) m per rate of each of the angles `singly` (M,).
+
+    These end with the hinges'. Raises `ZeroDivisionError` where an edge or a chord has no length.
+    """
     moving = angles + 1j * COMPLEX_STEP * rates
     if published:
-        pairs, leading, guide, per_hinge = one_step_wing(wing, moving, 2 * elements)
+        pairs, leading, guide, per_rate = one_step_wing(wing, moving, 2 * elements, singly)
     else:
-        pairs, leading, guide, per_hinge = orthogonal_wing(wing, moving, 2 * elements, rounding)
+        pairs, leading, guide, per_rate = orthogonal_wing(
+            wing, moving, 2 * elements, rounding, singly
+        )
+    per_hinge = per_rate[singly.size - (wing.offset.size - wing.segment.size) :].copy()
     shape = _assemble(pairs, guide, leading, per_hinge, rounding, published)
     forward = skeleton(wing, moving).rotation[HUMERUS, :, 0].real
     # Written so that what is not finite does not pass.
@@ -122,7 +130,7 @@ def shape_of_edges(
         for i in range(3):
             aft -= shape.chord_direction[e, i] * forward[i]
         sound = sound and aft > 0.0
-    return WingShape(
+    shape = WingShape(
         shape.line,
         shape.velocity,
         shape.chord_direction,
@@ -133,6 +141,7 @@ def shape_of_edges(
         shape.converged and sound,
         shape.hinge_velocity,
     )
+    return shape, per_rate
 
 
 def _no_shape(wing: WingArrays, elements: int) -> WingShape:

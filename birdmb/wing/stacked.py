@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from birdmb._kernels import kernel
-from birdmb._typing import BoolArray, FloatArray
+from birdmb._typing import BoolArray, FloatArray, IntArray
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.shape import WingShape, shape_of_edges, wing_shape
 
@@ -23,11 +23,9 @@ class StackedShapes(NamedTuple):
     beyond: FloatArray  # (P, N, 2)
     converged: BoolArray  # (P,)
     hinge_velocity: FloatArray  # (P, H, N, 3)
-
-
-def stacked_shapes(shapes: Sequence[WingShape]) -> StackedShapes:
-    """Shapes as one."""
-    return StackedShapes(*(np.array(arrays) for arrays in zip(*shapes, strict=True)))
+    singly: IntArray  # (M,) angles whose own effect on the velocity is known
+    rates: FloatArray  # (P, M) rad/s of these, of which `velocity` is made
+    velocity_per_rate: FloatArray  # (P, M, N, 3) m
 
 
 def wing_shapes(
@@ -37,16 +35,51 @@ def wing_shapes(
     elements: int,
     rounding: float,
     published: bool,
+    singly: Sequence[int] = (),
 ) -> StackedShapes:
-    """Shapes of the right wing for `angles` and `rates` (P, A), as `wing_shape` gives each."""
+    """Shapes of the right wing for `angles` and `rates` (P, A), as `wing_shape` gives each.
+
+    With them come their velocities per rate of each of the joints `singly`, and of all hinges.
+    """
+    hinges = range(wing.segment.size, wing.offset.size)
+    moving = np.array([*singly, *hinges], dtype=np.int64)
+    how = elements, rounding, published
     try:
-        return _made(wing, angles, rates, elements, rounding, published)
+        return _made(wing, angles, rates, *how, moving)
     except ZeroDivisionError:  # of one at least: the others have their shapes nevertheless
-        shapes = [
-            wing_shape(wing, *moving, elements=elements, rounding=rounding, published=published)
-            for moving in zip(angles, rates, strict=True)
-        ]
-        return stacked_shapes(shapes)
+        return _made_singly(wing, angles, rates, how, moving)
+
+
+def _made_singly(
+    wing: WingArrays,
+    angles: FloatArray,
+    rates: FloatArray,
+    how: tuple[int, float, bool],
+    moving: IntArray,
+) -> StackedShapes:
+    """As `_made`; without velocities per rate, for such a wing has no use for them."""
+    elements, rounding, published = how
+    shapes = [
+        wing_shape(wing, *of_one, elements=elements, rounding=rounding, published=published)
+        for of_one in zip(angles, rates, strict=True)
+    ]
+    line, velocity, chords, normal, span, chord, beyond, converged, per_hinge = (
+        np.array(arrays) for arrays in zip(*shapes, strict=True)
+    )
+    return StackedShapes(
+        line,
+        velocity,
+        chords,
+        normal,
+        span,
+        chord,
+        beyond,
+        converged,
+        per_hinge,
+        moving,
+        rates[:, moving],
+        np.full((len(shapes), moving.size, elements, 3), np.nan),
+    )
 
 
 @kernel
@@ -57,6 +90,7 @@ def _made(
     elements: int,
     rounding: float,
     published: bool,
+    moving: IntArray,
 ) -> StackedShapes:
     count, hinges = angles.shape[0], wing.offset.size - wing.segment.size
     stack = StackedShapes(
@@ -69,9 +103,14 @@ def _made(
         np.empty((count, elements, 2)),
         np.empty(count, np.bool_),
         np.empty((count, hinges, elements, 3)),
+        moving,
+        rates[:, moving],
+        np.empty((count, moving.size, elements, 3)),
     )
     for k in range(count):
-        shape = shape_of_edges(wing, angles[k], rates[k], elements, rounding, published)
+        shape, stack.velocity_per_rate[k] = shape_of_edges(
+            wing, angles[k], rates[k], elements, rounding, published, moving
+        )
         stack.line[k] = shape.line
         stack.velocity[k] = shape.velocity
         stack.chord_direction[k] = shape.chord_direction
@@ -98,3 +137,17 @@ def shape_at(stack: StackedShapes, k: int) -> WingShape:
         stack.converged[k],
         stack.hinge_velocity[k],
     )
+
+
+@kernel
+def velocity_at(stack: StackedShapes, k: int, rates: FloatArray) -> FloatArray:
+    """Velocity (N, 3) m/s of the k-th shape if the angles `singly` move at these of `rates` (A,).
+
+    Exact, for velocities are linear in the rates.
+    """
+    velocity = stack.velocity[k].copy()
+    for m in range(stack.singly.size):
+        more = rates[stack.singly[m]] - stack.rates[k, m]
+        if more != 0.0:
+            velocity += more * stack.velocity_per_rate[k, m]
+    return velocity

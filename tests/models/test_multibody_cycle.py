@@ -176,7 +176,9 @@ def test_integration_error_is_that_of_the_method_that_was_named(
 ):
     bird = ibis_compliant.with_values({"wing.discretisation": 4})
     cycle = birdmb.find_limit_cycle(
-        birdmb.MultibodyModel(bird, steps_per_beat=steps, integrator=method), tolerance=1e-7
+        birdmb.MultibodyModel(bird, steps_per_beat=steps, integrator=method),
+        tolerance=1e-7,
+        method="shooting",
     )
     used = []
     flow = birdmb.MultibodyModel.flow

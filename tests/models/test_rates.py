@@ -4,10 +4,14 @@ import numpy as np
 import pytest
 
 import birdmb
+from birdmb.models.exudyn_tree import TreeInertia, tree_links
 from birdmb.models.gusts import GaussianGust
+from birdmb.models.row_groups import groups_of
+from birdmb.models.tree_kernel import bias_forces, mass_matrix, placed_links
 from tests.conftest import TOPOLOGIES
 
 PLIANT = {"stiffness": 20.0, "damping": 0.2}
+GUST = GaussianGust(vertical=3.0, horizontal=-2.0, time=0.1)
 STATE = (18.0, -2.0, 0.3, -0.1)
 
 
@@ -42,15 +46,69 @@ def test_rates_are_what_the_equations_of_motion_say(ibis, joints):
         assert model.rhs(t, x) == pytest.approx(found, rel=1e-13)
 
 
+def birds_of_all_kinds(ibis):
+    """Shape given by time; by a joint's angle, with a shoulder joint besides; by hinges."""
+    hinged = birdmb.load_bird(TOPOLOGIES / "ibis_hinged_feathers.toml")
+    yield coarse(sprung(ibis, "shoulder.flap"))
+    yield coarse(sprung(ibis, "shoulder.flap", "elbow.sweep", "forearm.roll"))
+    yield coarse(sprung(hinged, "wrist.sweep"))
+    yield sprung(hinged, "elbow.sweep").with_values({"wing.discretisation": "published"})
+
+
+def test_rates_do_not_depend_on_which_others_are_asked_for(ibis):
+    """Displaced states share what their displacement leaves as it is."""
+    for bird in birds_of_all_kinds(ibis):
+        model = birdmb.MultibodyModel(bird, gust=GUST)
+        instants = np.array([0.03, 0.0, 0.16])
+        shifts = np.diag(0.1 * model.state_scale)
+        near = model.guess_along(instants)[:, None]
+        states = np.concatenate([near, near + shifts, near - shifts], axis=1)
+        times = np.repeat(instants, states.shape[1])
+        rows = states.reshape(times.size, -1)
+        mixed = np.random.default_rng(5).permutation(times.size)
+        together = model.rates(times[mixed], rows[mixed])
+        alone = [model.rhs(times[k], rows[k]) for k in mixed]
+        scale = np.abs(together).max(axis=0)
+        np.testing.assert_allclose(together / scale, alone / scale, atol=1e-13)
+
+
+def test_the_compiled_tree_is_exudyns(ibis):
+    rng = np.random.default_rng(6)
+    for bird in birds_of_all_kinds(ibis):
+        links = tree_links(bird)
+        n, theta, pitch_rate = links.parent.size, -0.3, 0.7
+        angles, rates = rng.uniform(-1.0, 1.0, n), rng.uniform(-20.0, 20.0, n)
+        q, v = np.zeros(3 + 2 * n), np.zeros(3 + 2 * n)
+        q[2:] = theta, *angles, *angles
+        v[:] = 17.0, -3.0, pitch_rate, *rates, *rates
+        (mass,), (bias,) = TreeInertia(bird).at(q[None, :], v[None, :])
+        alike = np.zeros((3 + 2 * n, 3 + n))  # accelerations of the tree by those of one wing
+        c, s = np.cos(theta), np.sin(theta)
+        alike[:3, :3] = [[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]
+        alike[3:, 3:] = np.tile(np.eye(n), (2, 1))
+        placed = placed_links(links, angles)
+        whole, part = alike.T @ mass @ alike, mass_matrix(links, placed)
+        np.testing.assert_allclose(part, whole, atol=1e-14 * np.abs(whole).max())
+        whole, part = alike.T @ bias, bias_forces(links, placed, rates, pitch_rate, theta)
+        np.testing.assert_allclose(part, whole, atol=1e-13 * np.abs(whole).max())
+
+
+def test_rows_are_alike_if_key_and_all_values_are():
+    keys = np.array([1, 0, 1, 1, 0, 1])
+    values = np.array([[0.0, 1.0], [0.0, 1.0], [0.0, 1.0], [0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])
+    groups = groups_of(keys, values)
+    assert groups.of.tolist() == [0, 1, 0, 2, 1, 0]
+    assert groups.first.tolist() == [0, 1, 3]
+    assert groups.members.tolist() == [0, 2, 5, 1, 4, 3]
+    assert groups.start.tolist() == [0, 3, 5, 6]
+
+
 def test_states_that_are_not_finite_have_no_rates(ibis):
     model = birdmb.MultibodyModel(coarse(ibis))
     states = np.array([STATE, (np.nan, *STATE[1:])])
     rates = model.rates(np.array([0.0, 0.1]), states)
     assert np.isfinite(rates[0]).all()
     assert np.isnan(rates[1]).all()
-
-
-GUST = GaussianGust(vertical=3.0, horizontal=-2.0, time=0.1)
 
 
 @pytest.fixture(params=["ibis", "ibis_tail", "ibis_published", "in a gust"])

