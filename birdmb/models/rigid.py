@@ -1,5 +1,6 @@
 """The rigid bird: four states, massless wings on their drivers (docs/model.md, section 6)."""
 
+from collections.abc import Iterator
 from functools import cached_property
 
 import numpy as np
@@ -147,14 +148,14 @@ class RigidModel(WingModel):
         guess = self._trim(times) if self._span_a_beat(times) else self._first_guess
         return np.tile(guess, (times.size, 1))
 
-    def starting_paths(self, times: FloatArray) -> FloatArray:
-        """Paths (S, K, 4) at `times` (K,) s to look for flights from, the guess first.
+    def starting_paths(self, times: FloatArray) -> Iterator[FloatArray]:
+        """Paths (K, 4) at `times` (K,) s to look for flights from, the guess first.
 
-        Steady flights at several speeds, incidences and path angles; raises `StateError`.
+        Then steady flights at several speeds, incidences and path angles.
         """
-        steady = steady_states(self, SPEEDS, INCIDENCES, PATH_ANGLES)
-        paths = np.broadcast_to(steady[:, None, :], (len(steady), times.size, 4))
-        return np.concatenate([self.guess_along(times)[None], paths])
+        yield self.guess_along(times)
+        for state in steady_states(self, SPEEDS, INCIDENCES, PATH_ANGLES):
+            yield np.tile(state, (times.size, 1))
 
     def _span_a_beat(self, times: FloatArray) -> bool:
         if times.size < _PHASES:

@@ -6,6 +6,7 @@ needs to be inherited.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
@@ -87,8 +88,8 @@ class HasGuessedPath(Protocol):
 class HasStartingPaths(Protocol):
     """The model proposes closed paths from which a search may find its orbits, all of them."""
 
-    def starting_paths(self, times: FloatArray, /) -> FloatArray:
-        """States (S, K, n) along S paths at `times` (K,), spread evenly; the best start first."""
+    def starting_paths(self, times: FloatArray, /) -> Iterable[FloatArray]:
+        """States (K, n) along paths at `times` (K,), spread evenly; the best start first."""
 
 
 @runtime_checkable
