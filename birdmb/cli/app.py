@@ -108,10 +108,26 @@ def cycle(
     method: MethodChoice = Method.AUTO,
     damping: DampingChoice = Damping.LINE_SEARCH,
     steps_per_beat: StepsPerBeat = None,
+    guess: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="Start from this cycle (cycle.nc of --out, or of another bird), or from one of a "
+            "branch (file of `birdmb branch`, with --point).",
+            show_default="a guess of its own",
+        ),
+    ] = None,
+    point: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N", help="Which flight of a branch to start from: 1 the first, -1 the last."
+        ),
+    ] = None,
 ) -> None:
     """Find the limit cycle of a bird, its Floquet multipliers, speed and power.
 
-    The search starts from a guess of its own. Progress goes to standard error, the result to
+    The search starts from a guess of its own, and where that leads to no flight, from many others
+    (`birdmb flights` shows all that these lead to). Progress goes to standard error, the result to
     standard output.
     """
     with reported(as_json=json):
@@ -119,7 +135,9 @@ def cycle(
 
         bird = requested_bird(topology, assignments or [])
 
-        from birdmb.cli.cycle import Search, run  # noqa: PLC0415 - not before the bird is sound
+        from birdmb.cli.cycle import run  # noqa: PLC0415 - not before the bird is sound
+        from birdmb.cli.saved_guess import requested_guess  # noqa: PLC0415
+        from birdmb.cli.searching import Search  # noqa: PLC0415
 
         run(
             bird,
@@ -132,6 +150,7 @@ def cycle(
                 damping=damping.value,
                 steps_per_beat=steps_per_beat,
             ),
+            guess=requested_guess(guess, point),
             out=out,
             as_json=json,
         )

@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager, redirect_stdout
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 import typer
 
@@ -16,38 +13,32 @@ from birdmb.cli.console import messages, output
 from birdmb.cli.drawing import plain_style
 from birdmb.cli.files import prepare, write_results
 from birdmb.cli.interrupt import tidied
-from birdmb.cli.outcome import NO_CYCLE, ResultUnwrittenError, SearchFailed
+from birdmb.cli.outcome import NO_CYCLE, ResultUnwrittenError
 from birdmb.cli.progress import Progress
 from birdmb.cli.report import print_report
-from birdmb.cli.results import finite, result_object, taken_as_prescribed
+from birdmb.cli.results import (
+    mean_flight,
+    other_flights_sentence,
+    result_object,
+    taken_as_prescribed,
+)
+from birdmb.cli.searching import TRIM, Search, found_flight, model_of, other_flights
+from birdmb.cli.streams import only_results_on_stdout
 from birdmb.errors import OutputError
 from birdmb.files import remove_drafts
-from birdmb.orbits import ConvergenceError, find_limit_cycle
 from birdmb.studies import assess_validity
 
 if TYPE_CHECKING:
+    from birdmb.cli.saved_guess import SavedGuess
     from birdmb.models import FlightCycle
     from birdmb.models.multibody import MultibodyModel
     from birdmb.models.rigid import RigidModel
-    from birdmb.orbits.newton import Damping
-    from birdmb.orbits.search import SearchMethod
     from birdmb.topology import Bird
 
 
-@dataclass(frozen=True)
-class Search:
-    """What the options say about model and search; see `find_limit_cycle`."""
-
-    model: str
-    segments: int | None
-    tolerance: float
-    max_iterations: int
-    method: SearchMethod
-    damping: Damping
-    steps_per_beat: int | None
-
-
-def run(bird: Bird, search: Search, *, out: Path | None, as_json: bool) -> None:
+def run(
+    bird: Bird, search: Search, *, guess: SavedGuess | None, out: Path | None, as_json: bool
+) -> None:
     """Find the limit cycle, report it on standard output and write it into `out`."""
     if out is not None:
         prepare(out)
@@ -58,17 +49,24 @@ def run(bird: Bird, search: Search, *, out: Path | None, as_json: bool) -> None:
         if out is not None:
             remove_drafts(out)
 
-    with tidied(tidy), _only_results_on_stdout(), progress.shown():
-        cycle = _found(bird, search, progress)
+    with tidied(tidy), only_results_on_stdout(), progress.shown():
+        model = model_of(bird, search.model, search.steps_per_beat)
+        cycle = _found(model, search, guess, progress)
         progress.doing("loads and power over the beat")
         validity = assess_validity(cycle)
-        found = result_object(cycle, validity, search.model)
+        others = other_flights(model, cycle, progress)
+        found = {
+            **result_object(cycle, validity, search.model),
+            "other_flights": None if others is None else list(map(mean_flight, others)),
+        }
     if not as_json:
         print_report(output(), cycle, validity)
+        if others:
+            output().print(other_flights_sentence(others), highlight=False)
     written: list[Path] = []
     if out is not None:
         try:
-            with tidied(tidy), _only_results_on_stdout(), progress.shown(), plain_style():
+            with tidied(tidy), only_results_on_stdout(), progress.shown(), plain_style():
                 written = write_results(cycle, out, progress)
         except OutputError as error:
             raise ResultUnwrittenError(str(error), found) from error
@@ -81,11 +79,14 @@ def run(bird: Bird, search: Search, *, out: Path | None, as_json: bool) -> None:
         for path in written:
             progress.line(f"wrote {path}")
     if cycle.why_no_flight is not None:
+        progress.line(f"No flight found. What to do next: {TRIM}.")
         raise typer.Exit(NO_CYCLE)
 
 
-def _found(bird: Bird, search: Search, progress: Progress) -> FlightCycle:
-    model = _model(bird, search)
+def _found(
+    model: RigidModel | MultibodyModel, search: Search, guess: SavedGuess | None, progress: Progress
+) -> FlightCycle:
+    bird = model.bird
     progress.line(
         f"{bird.name}, {search.model} model: {len(model.state_names)} states, "
         f"wingbeat of {bird.period:.4g} s"
@@ -95,46 +96,6 @@ def _found(bird: Bird, search: Search, progress: Progress) -> FlightCycle:
             f"The {search.model} model takes {', '.join(held)} as prescribed: springs and dampers "
             "are not used."
         )
-    progress.doing("looking for a first guess")
-    try:
-        cycle = find_limit_cycle(
-            model,
-            segments=search.segments,
-            tolerance=search.tolerance,
-            max_iterations=search.max_iterations,
-            # Steps are of the time integration: who gives them wants it.
-            method="shooting"
-            if search.steps_per_beat is not None and search.method == "auto"
-            else search.method,
-            damping=search.damping,
-            callback=progress.iteration,
-        )
-    except ConvergenceError as error:
-        raise SearchFailed(
-            str(error),
-            {
-                "bird": bird.name,
-                "model": search.model,
-                "x": {n: finite(v) for n, v in zip(model.state_names, error.best_x, strict=True)},
-                "residual": finite(error.residual),
-                "iterations": max(len(error.history) - 1, 0),
-            },
-        ) from error
-    return cast("FlightCycle", cycle)
-
-
-def _model(bird: Bird, search: Search) -> RigidModel | MultibodyModel:
-    if search.model == "rigid":
-        from birdmb.models.rigid import RigidModel  # noqa: PLC0415
-
-        return RigidModel(bird, steps_per_beat=search.steps_per_beat)
-    from birdmb.models.multibody import MultibodyModel  # noqa: PLC0415
-
-    return MultibodyModel(bird, steps_per_beat=search.steps_per_beat)
-
-
-@contextmanager
-def _only_results_on_stdout() -> Iterator[None]:
-    """Send what libraries print on the way, as Exudyn does, to standard error."""
-    with redirect_stdout(sys.stderr):
-        yield
+    if guess is not None:
+        progress.line(f"Starting from {guess.about}.")
+    return found_flight(model, search, guess, progress)

@@ -1,4 +1,4 @@
-"""The commands `birdmb trim`, `birdmb tail-study` and `birdmb scale`, and their options."""
+"""The commands that find, trim, level and scale flights, and their options."""
 
 from pathlib import Path
 from typing import Annotated
@@ -8,6 +8,7 @@ import typer
 from birdmb.cli.options import (
     Assignments,
     ClimbRate,
+    Json,
     ModelChoice,
     ModelName,
     Speed,
@@ -18,6 +19,44 @@ from birdmb.cli.options import (
 from birdmb.cli.outcome import reported
 
 commands = typer.Typer()
+
+
+@commands.command(
+    epilog=(
+        "Exit status: 0 at least one flight; 1 no limit cycle found, or none that is a flight; 2 "
+        "wrong topology, value or option; 130 interrupted.\n\n"
+        "With --json a list of objects, each as of `birdmb cycle --json`.\n\n"
+        "Example: birdmb flights topologies/ibis.toml --model rigid --out flights"
+    )
+)
+def flights(
+    topology: Topology,
+    model: ModelChoice = ModelName.MULTIBODY,
+    assignments: Assignments = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="DIR",
+            help="Write each cycle (flight_1.nc, ...) into this directory; `birdmb cycle --guess` "
+            "starts from such a file.",
+        ),
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Find all limit cycles of a bird that many starts lead to, and tell flights from others.
+
+    Starts over speed, incidence and path angle, then searches away from the cycles found. They are
+    listed by speed, first the flights, then what moves backwards or on its tail. Nothing proves
+    that there are no others.
+    """
+    with reported(as_json=json):
+        from birdmb.cli.birds import requested_bird  # noqa: PLC0415
+
+        bird = requested_bird(topology, assignments or [])
+
+        from birdmb.cli.flights import run  # noqa: PLC0415 - not before the bird is sound
+
+        run(bird, model.value, out=out, as_json=json)
 
 
 @commands.command(

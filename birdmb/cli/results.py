@@ -53,6 +53,7 @@ def result_object(cycle: FlightCycle, validity: Validity, model_name: str) -> di
         "mean_speed": cycle.mean_speed,
         "mean_climb_rate": cycle.mean_climb_rate,
         "path_angle": cycle.path_angle,
+        "mean_pitch": cycle.mean_pitch,
         "power": cycle.power,
         "potential_power": cycle.potential_power,
         "corrected_power": cycle.corrected_power,
@@ -77,6 +78,25 @@ def taken_as_prescribed(model: WingModel) -> list[str]:
     free = [joint.name for joint in model.bird.compliant_joints]
     free += [feather.hinge_name for feather in model.bird.hinged_feathers]
     return [name for name in free if name not in model.state_names]
+
+
+def mean_flight(cycle: FlightCycle) -> dict[str, float]:
+    """Speed and climb rate, m/s, and pitch angle, rad, of a flight on average over a beat."""
+    return {
+        "mean_speed": cycle.mean_speed,
+        "mean_climb_rate": cycle.mean_climb_rate,
+        "mean_pitch": cycle.mean_pitch,
+    }
+
+
+def other_flights_sentence(others: list[FlightCycle]) -> str:
+    """That a bird has other flights than the one reported, and which."""
+    each = " and ".join(
+        f"{o.mean_speed:.2f} m/s, climbing {o.mean_climb_rate:+.2f} m/s ({o.stability})"
+        for o in others
+    )
+    flights = "another flight" if len(others) == 1 else "other flights"
+    return f"This bird has {flights}, at {each}: `birdmb flights` lists all that it finds."
 
 
 def _numbers(values: Iterable[float]) -> list[float | None]:

@@ -4,7 +4,7 @@ import codecs
 import os
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, redirect_stdout, suppress
 
 from birdmb.cli.outcome import BAD_INPUT
 
@@ -66,3 +66,10 @@ def _discard_what_is_left() -> None:
     for stream in (sys.stdout, sys.stderr):
         with suppress(OSError, ValueError):
             os.dup2(null, stream.fileno())
+
+
+@contextmanager
+def only_results_on_stdout() -> Iterator[None]:
+    """Send what libraries print on the way, as Exudyn does, to standard error."""
+    with redirect_stdout(sys.stderr):
+        yield

@@ -224,6 +224,11 @@ class FlightCycle(SteppedCycle):
         return None
 
     @property
+    def sort_key(self) -> tuple[float, ...]:
+        """What `find_limit_cycles` sorts by: flights first, the slow ones before the fast."""
+        return float(self.why_no_flight is not None), self.mean_speed
+
+    @property
     def verdict_errors(self) -> FloatArray:
         """Errors (n,) of the multipliers that the verdict counts: also of the integration.
 

@@ -1,5 +1,6 @@
 """The multibody bird in Exudyn, its joints prescribed or compliant (docs/model.md, section 7)."""
 
+from collections.abc import Iterator
 from functools import cached_property
 from typing import Any, Literal, Self
 
@@ -8,7 +9,7 @@ import numpy.typing as npt
 
 from birdmb._typing import BoolArray, FloatArray, IntArray
 from birdmb.aerodynamics.prescribed import driven, driven_at
-from birdmb.errors import StateError
+from birdmb.errors import OrbitError, StateError
 from birdmb.models.compiled_calls import COMPILED, calls_compiled_code
 from birdmb.models.determinacy import refuse_undetermined
 from birdmb.models.exudyn_tree import BODY_COORDINATES, ExudynBird, typical_inertias
@@ -24,10 +25,18 @@ from birdmb.models.multibody_kernel import body_velocity, tree_forces
 from birdmb.models.partition import body_forces, partitioned
 from birdmb.models.rates_kernel import Motion
 from birdmb.models.rigid import RigidModel
-from birdmb.models.springs import has_two_sides, spring_torques, spring_torques_along, springs_of
+from birdmb.models.springs import has_two_sides, spring_torques_along, springs_of
+from birdmb.models.starts import (
+    FEW_INCIDENCES,
+    FEW_PATH_ANGLES,
+    FEW_SPEEDS,
+    rigid_flights,
+    steady_states,
+)
 from birdmb.models.stepped_cycle import SteppedCycle
 from birdmb.models.tree_rates import TreeRates
 from birdmb.models.wing_model import BODY_SCALE, BODY_STATES, BODY_UNITS, WingModel
+from birdmb.orbits import find_limit_cycle
 from birdmb.topology import Bird
 from birdmb.wing.chain import joints_turning_the_whole
 from birdmb.wing.shape import WingShape
@@ -289,6 +298,37 @@ class MultibodyModel(WingModel):
         guess[:, self._body_states + 1 :: 2] = rates[:, self._compliant]
         return guess
 
+    def starting_paths(self, times: FloatArray) -> Iterator[FloatArray]:
+        """Paths (K, n) at `times` (K,) s to look for flights from, the guess first.
+
+        Along the flights of the rigid bird, then along steady flights, with the compliant joints as
+        they swing on a body held in that flight's mean motion, and on their drivers.
+        """
+        guess = self.guess_along(times)
+        yield guess
+        for bodies in (rigid_flights, self._steady):
+            for body in bodies(self.bird, times):
+                swinging = self._tethered_joints(body, times)
+                if swinging is not None:
+                    yield np.hstack([body, swinging])
+                yield np.hstack([body, guess[:, self._body_states :]])
+
+    def _steady(self, _bird: Bird, times: FloatArray) -> FloatArray:
+        steady = steady_states(self, FEW_SPEEDS, FEW_INCIDENCES, FEW_PATH_ANGLES)
+        return np.repeat(steady[:, None, :], times.size, axis=1)
+
+    def _tethered_joints(self, body: FloatArray, times: FloatArray) -> FloatArray | None:
+        """States (K, m) of the compliant joints on a body held as it moves on average."""
+        if not self._compliant.any():
+            return None
+        mean = body.mean(axis=0) * [1.0, 1.0, 0.0, 1.0]
+        tethered = TetheredModel(self.bird, mean, **self._options())
+        try:
+            cycle = find_limit_cycle(tethered, accuracy=1e-3, method="collocation")
+        except (OrbitError, StateError):
+            return None
+        return cycle.trajectory(times).states
+
     @cached_property
     def _trim(self) -> FloatArray:
         return RigidModel(self.bird).initial_guess()
@@ -370,9 +410,6 @@ class MultibodyModel(WingModel):
             angles, rates, _ = driven(self.wing, t)  # any will do: there are no forces
         return self._instants.shape(t, angles, rates)
 
-    def _spring_torques(self, driver: Instant, angles: FloatArray, rates: FloatArray) -> FloatArray:
-        return spring_torques(self._springs, angles - driver.angles, rates - driver.rates)
-
     def driver_accelerations(self, t: float) -> FloatArray:
         """Accelerations (n,) of the drivers, 0 for the body; only prescribed joints follow."""
         return self.instant(t).accelerations
@@ -416,6 +453,10 @@ class TetheredModel(MultibodyModel):
 
     def _options(self) -> dict[str, Any]:
         return {**super()._options(), "body_state": self._held}
+
+    def starting_paths(self, times: FloatArray) -> Iterator[FloatArray]:
+        """One path (K, n) at `times` (K,) s: the joints on their drivers."""
+        yield self.guess_along(times)
 
     def body_state(self, x: FloatArray) -> FloatArray:  # noqa: ARG002
         """The body's state (4,), whatever the joints do."""

@@ -1,5 +1,6 @@
 """The rigid bird: four states, massless wings on their drivers (docs/model.md, section 6)."""
 
+from collections.abc import Iterator
 from functools import cached_property
 
 import numpy as np
@@ -23,6 +24,7 @@ from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.gusts import Gust
 from birdmb.models.rigid_kernel import RigidBody, integrate_rigid, rates_along
+from birdmb.models.starts import INCIDENCES, PATH_ANGLES, SPEEDS, steady_states
 from birdmb.models.trim import mean_trim
 from birdmb.models.wing_model import (
     BODY_SCALE,
@@ -146,6 +148,15 @@ class RigidModel(WingModel):
         """
         guess = self._trim(times) if self._span_a_beat(times) else self._first_guess
         return np.tile(guess, (times.size, 1))
+
+    def starting_paths(self, times: FloatArray) -> Iterator[FloatArray]:
+        """Paths (K, 4) at `times` (K,) s to look for flights from, the guess first.
+
+        Then steady flights at several speeds, incidences and path angles.
+        """
+        yield self.guess_along(times)
+        for state in steady_states(self, SPEEDS, INCIDENCES, PATH_ANGLES):
+            yield np.tile(state, (times.size, 1))
 
     def _span_a_beat(self, times: FloatArray) -> bool:
         if times.size < _PHASES:

@@ -104,6 +104,22 @@ class WingModel(ABC):
     def state_scale(self) -> FloatArray:
         """Typical sizes of the states, (n,)."""
 
+    @property
+    def state_periods(self) -> FloatArray:
+        """Periods (n,) of the states: of the pitch angle a full turn, infinite of the others."""
+        turns = [2.0 * np.pi if name == "theta" else np.inf for name in self.state_names]
+        return np.array(turns)
+
+    @property
+    def wing_area(self) -> float:
+        """Area of both wings on their drivers at t = 0, m2; raises `StateError` without one."""
+        angles, rates, _ = driven(self.wing, 0.0)
+        shape = wing_shape(self.wing, angles, rates, *self.discretisation)
+        if not shape.converged:
+            raise lifting_line_lost(self.bird, 0.0, angles)
+        elements = place_elements(shape, self.wing.root)
+        return float(2.0 * np.sum(elements.chord * elements.width))
+
     def body_state(self, x: FloatArray) -> FloatArray:
         """The body's part u, w, q, theta (4,) of a state."""
         return x[:4]

@@ -3,6 +3,7 @@
 from birdmb.orbits.boundary import BoundaryPoint, StabilityBoundary, stability_boundary
 from birdmb.orbits.branch import Branch, load_branch
 from birdmb.orbits.branch_points import Bifurcation, BranchPoint
+from birdmb.orbits.coexisting import Attempt, find_limit_cycles
 from birdmb.orbits.continuation import continue_branch
 from birdmb.orbits.cycle import LimitCycle
 from birdmb.orbits.errors import (
@@ -29,6 +30,7 @@ from birdmb.orbits.tracer import Steps
 
 __all__ = [
     "ArgumentError",
+    "Attempt",
     "Bifurcation",
     "BoundaryPoint",
     "Branch",
@@ -55,6 +57,7 @@ __all__ = [
     "VariationalModel",
     "continue_branch",
     "find_limit_cycle",
+    "find_limit_cycles",
     "floquet",
     "largest_lyapunov_exponent",
     "load_branch",

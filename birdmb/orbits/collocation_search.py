@@ -73,7 +73,7 @@ def search_by_collocation(
     declared = declared_scale(model)
     scale = sizes_along(model, path, start_time, period) if declared is None else declared
     require_period(model, path[0], scale, start_time, period)
-    gap = _derivative_gap(RightHandSide(model, scale), path / scale, start_time, period)
+    gap = derivative_gap(RightHandSide(model, scale), path / scale, start_time, period)
 
     def search(path: FloatArray, period: float, scale: FloatArray) -> Collocated:
         rhs = RightHandSide(model, scale, by_differences=gap > 0)
@@ -123,7 +123,7 @@ def nodes_shown(guess: npt.ArrayLike | FloquetResult | None) -> int:
     return shape[0] if len(shape) == 2 and shape[0] % 2 else 0
 
 
-def _derivative_gap(
+def derivative_gap(
     rhs: RightHandSide, points: FloatArray, start_time: float, period: float
 ) -> float:
     """By how much a derivative that the model gives contradicts differences; 0 if it does not."""

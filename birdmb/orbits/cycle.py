@@ -44,6 +44,11 @@ class LimitCycle(FloquetResult):
         """By which method it was found."""
         return "shooting" if self.nodes is None else "collocation"
 
+    @property
+    def sort_key(self) -> tuple[float, ...]:
+        """What `find_limit_cycles` sorts by: the period, then the size in state scales."""
+        return self.period, float(np.linalg.norm(self.trajectory().states / self.state_scale))
+
     def trajectory(self, times: npt.ArrayLike | None = None) -> Trajectory:
         """States at `times` (k,) in s, any times: the orbit is continued periodically.
 

@@ -6,6 +6,7 @@ needs to be inherited.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
@@ -81,6 +82,23 @@ class HasGuessedPath(Protocol):
 
     def guess_along(self, times: FloatArray, /) -> FloatArray:
         """States (K, n) at `times` (K,)."""
+
+
+@runtime_checkable
+class HasStartingPaths(Protocol):
+    """The model proposes closed paths from which a search may find its orbits, all of them."""
+
+    def starting_paths(self, times: FloatArray, /) -> Iterable[FloatArray]:
+        """States (K, n) along paths at `times` (K,), spread evenly; the best start first."""
+
+
+@runtime_checkable
+class HasStatePeriods(Protocol):
+    """The model has states, such as angles, that mean the same a period of theirs further on."""
+
+    @property
+    def state_periods(self) -> FloatArray:
+        """Periods (n,) in the units of the states; infinite of those that do not repeat."""
 
 
 @runtime_checkable

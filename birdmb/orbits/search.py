@@ -30,7 +30,7 @@ _MOST_NODES_BY_CHOICE = 129
 _MOST_UNKNOWNS_BY_CHOICE = 1000
 _MOST_NODES = 1025
 # What collocation left unfinished is a better guess than the one it began with, if it is this near.
-_NEAR = 0.01
+NEAR = 0.01
 
 
 def find_limit_cycle(
@@ -134,7 +134,7 @@ def find_limit_cycle(
                 max_iterations=max_iterations,
                 nodes=nodes,
                 accuracy=accuracy,
-                most_nodes=_most_nodes(model, method),
+                most_nodes=most_nodes(model, method),
                 callback=callback,
             )
         except ArgumentError:
@@ -147,9 +147,11 @@ def find_limit_cycle(
                 start = np.asarray(guess, float)[0]
             if isinstance(error, NotSmoothError):
                 reason = str(error).partition(" Take method=")[0]
-                if error.residual < _NEAR:
+                if error.residual < NEAR:
                     start = error.best_x
                     period_guess = error.history[-1].period if period_guess else None
+            if start is guess and not isinstance(guess, FloquetResult) and np.ndim(guess) == 2:  # type: ignore[arg-type]
+                start = np.asarray(guess, float)[0]
     count = 1 if segments is None else segments
     return search_by_shooting(
         model,
@@ -178,7 +180,8 @@ def _without_rhs(model: Model) -> str:
     return "" if isinstance(model, HasRates | HasRhs) else "the model has no right-hand side"
 
 
-def _most_nodes(model: Model, method: SearchMethod) -> int:
+def most_nodes(model: Model, method: SearchMethod) -> int:
+    """Number of collocation nodes beyond which an orbit counts as too rough."""
     if method == "collocation":
         return _MOST_NODES
     return max(_MOST_NODES_BY_CHOICE, _MOST_UNKNOWNS_BY_CHOICE // len(model.state_names))

@@ -1,0 +1,125 @@
+"""The command `birdmb flights`."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+import typer
+
+from birdmb.cli.console import messages, output
+from birdmb.cli.files import prepare, write_dataset
+from birdmb.cli.interrupt import tidied
+from birdmb.cli.outcome import NO_CYCLE, ResultUnwrittenError, SearchFailed
+from birdmb.cli.progress import Progress
+from birdmb.cli.report import table_of
+from birdmb.cli.results import result_object, taken_as_prescribed
+from birdmb.cli.searching import TRIM, model_of, number_of, told
+from birdmb.cli.streams import only_results_on_stdout
+from birdmb.errors import OutputError
+from birdmb.files import remove_drafts
+from birdmb.orbits import find_limit_cycles
+from birdmb.studies import assess_validity
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from birdmb.models import FlightCycle
+    from birdmb.studies import Validity
+    from birdmb.topology import Bird
+
+_STYLES = {"stable": "green", "unstable": "red", "undecided": "yellow"}
+
+
+def run(bird: Bird, model_name: str, *, out: Path | None, as_json: bool) -> None:
+    """Find the flights of a bird, list them on standard output and write them into `out`."""
+    if out is not None:
+        prepare(out)
+    progress = Progress(messages())
+
+    def tidy() -> None:
+        progress.stop()
+        if out is not None:
+            remove_drafts(out)
+
+    with tidied(tidy), only_results_on_stdout(), progress.shown():
+        cycles = _found(bird, model_name, progress)
+        progress.doing("loads and power over the beats")
+        validity = [assess_validity(cycle) for cycle in cycles]
+        objects: list[dict[str, object]] = [
+            result_object(cycle, valid, model_name)
+            for cycle, valid in zip(cycles, validity, strict=True)
+        ]
+    if not as_json:
+        output().print(_table(cycles, validity))
+        for number, each in enumerate(zip(cycles, validity, strict=True), 1):
+            for remark in _remarks(number, *each):
+                output().print(remark, style="yellow", highlight=False)
+    if out is not None:
+        try:
+            with tidied(tidy), only_results_on_stdout(), progress.shown():
+                for number, cycle in enumerate(cycles, 1):
+                    path = write_dataset(out / f"flight_{number}.nc", cycle.to_xarray())
+                    objects[number - 1]["files"] = [str(path)]
+                    progress.line(f"wrote {path}")
+        except OutputError as error:
+            raise ResultUnwrittenError(str(error), {"flights": objects}) from error
+    if as_json:
+        json.dump(objects, sys.stdout, allow_nan=False, indent=2)
+        sys.stdout.write("\n")
+    if all(cycle.why_no_flight is not None for cycle in cycles):
+        progress.line(f"None of these is a flight. What to do next: {TRIM}.")
+        raise typer.Exit(NO_CYCLE)
+
+
+def _found(bird: Bird, model_name: str, progress: Progress) -> list[FlightCycle]:
+    model = model_of(bird, model_name, None)
+    progress.line(f"{bird.name}, {model_name} model: {len(model.state_names)} states")
+    if held := taken_as_prescribed(model):
+        progress.line(
+            f"The {model_name} model takes {', '.join(held)} as prescribed: springs and dampers "
+            "are not used."
+        )
+    progress.doing("laying out the starts")
+    cycles = cast("list[FlightCycle]", find_limit_cycles(model, callback=told(progress)))
+    if not cycles:
+        raise SearchFailed(
+            f"{bird.name}: no limit cycle from any of the starts over speed, incidence and path "
+            f"angle. What to do next: {TRIM}.",
+            {"bird": bird.name, "model": model_name},
+        )
+    progress.line(f"Found {number_of(cycles)}. There may be others that no start leads to.")
+    return cycles
+
+
+def _table(cycles: list[FlightCycle], validity: list[Validity]) -> Table:
+    table = table_of(
+        "Limit cycles, means over a beat",
+        "no.", "speed, m/s", "climb, m/s", "pitch, °", "|Λ| max", "verdict", "validity",
+        numbers=(0, 1, 2, 3, 4),
+    )  # fmt: skip
+    for number, (cycle, valid) in enumerate(zip(cycles, validity, strict=True), 1):
+        count = len(valid.warnings)
+        table.add_row(
+            str(number),
+            f"{cycle.mean_speed:.2f}",
+            f"{cycle.mean_climb_rate:+.2f}",
+            f"{np.degrees(cycle.mean_pitch):+.0f}",
+            f"{float(np.abs(cycle.multipliers[0])):.4f}",
+            cycle.stability if cycle.why_no_flight is None else "no flight",
+            f"{count} warning{'' if count == 1 else 's'}" if count else "",
+            style=_STYLES[cycle.stability] if cycle.why_no_flight is None else "dim",
+        )
+    return table
+
+
+def _remarks(number: int, cycle: FlightCycle, validity: Validity) -> list[str]:
+    """What speaks against calling a cycle a flight, against its numbers, and against the model."""
+    remarks = [] if cycle.why_no_flight is None else [f"no flight: {cycle.why_no_flight}"]
+    remarks += [f"not to be trusted: {failed}" for failed in cycle.failed_checks]
+    if cycle.why_no_flight is None:
+        remarks += [f"outside the model's validity: {warning}" for warning in validity.warnings]
+    return [f"{number} {remark}" for remark in remarks]

@@ -1,0 +1,68 @@
+"""States from which to look for all flights of a bird."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from birdmb._typing import FloatArray
+from birdmb.errors import StateError
+from birdmb.orbits import find_limit_cycles
+
+if TYPE_CHECKING:
+    from birdmb.models.wing_model import WingModel
+    from birdmb.topology import Bird
+
+# Parts of the speed at which the wings carry the weight with this lift coefficient; degrees. What
+# is most likely first.
+_LIFT_COEFFICIENT = 0.5
+SPEEDS = (1.0, 1.5, 0.7, 2.2, 0.4)
+INCIDENCES = (5.0, 15.0, -5.0)
+PATH_ANGLES = (0.0, -20.0, 20.0, -60.0, 60.0)
+_WITHOUT_WEIGHT = 10.0  # m/s
+# Where each start is dear.
+FEW_SPEEDS = (1.0, 1.6, 0.65)
+FEW_INCIDENCES = (5.0,)
+FEW_PATH_ANGLES = (0.0, -25.0)
+
+
+def steady_states(
+    model: WingModel,
+    speeds: tuple[float, ...],
+    incidences: tuple[float, ...],
+    path_angles: tuple[float, ...],
+) -> FloatArray:
+    """States (S, 4) u, w, q, theta of steady flights, all combinations.
+
+    `speeds` are parts of the one at which the wings carry the weight, angles are in degrees; raises
+    `StateError` where the wing has no area.
+    """
+    weight = model.mass * model.bird.gravity
+    pressure = weight / (model.wing_area * _LIFT_COEFFICIENT)
+    typical = float(np.sqrt(2.0 * pressure / model.airframe.density)) or _WITHOUT_WEIGHT
+    v, alpha, gamma = (
+        axis.ravel()
+        for axis in np.meshgrid(
+            typical * np.array(speeds),
+            np.radians(incidences),
+            np.radians(path_angles),
+            indexing="ij",
+        )
+    )
+    return np.column_stack([v * np.cos(alpha), v * np.sin(alpha), np.zeros(v.size), alpha + gamma])
+
+
+def rigid_flights(bird: Bird, times: FloatArray) -> FloatArray:
+    """States (S, K, 4) of the body at `times` (K,) s in the flights of the rigid bird.
+
+    None where it has no flight, or where the model of the rigid bird does not apply.
+    """
+    from birdmb.models.rigid import RigidModel  # noqa: PLC0415 - it takes its starts from here
+
+    try:
+        flights = find_limit_cycles(RigidModel(bird), accuracy=1e-3, deflations=4)
+    except StateError:
+        flights = []
+    states = [flight.trajectory(times).states for flight in flights]
+    return np.array(states).reshape(len(states), times.size, 4)
