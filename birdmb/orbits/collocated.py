@@ -25,22 +25,27 @@ class _Linearised:
     spectrum: Spectrum
 
 
-def linearise_collocated(found: Collocated, derivative_gap: float = 0.0) -> dict[str, Any]:
+def linearise_collocated(
+    found: Collocated[CollocationEquations],
+    rate_jacobians: FloatArray,
+    derivative_gap: float = 0.0,
+) -> dict[str, Any]:
     """Linearise the rates along a collocated orbit.
 
     The multipliers are those of the derivatives at its N nodes. Their error bounds hold what the
     solution and its derivatives on half as many nodes again make of them (twice the difference,
     each multiplier paired with its nearest), the differencing of the right-hand side, the stages of
-    the variational equation and the round-off of the eigenvalues. `derivative_gap` is by how much a
-    derivative that the model gives contradicts the differences that are taken instead.
+    the variational equation and the round-off of the eigenvalues. `rate_jacobians` (N, n, n) are
+    the derivatives of the rates at the nodes; `derivative_gap` is by how much a derivative that the
+    model gives contradicts the differences that are taken instead.
 
     Returns:
         The fields of a `FloquetResult`, by name.
     """
     equations = found.equations
     points, period = equations.unpack(found.u)
-    coarse = _linearised(equations, found.u)
-    fine = _linearised(found.finer, found.finer_u)
+    coarse = _linearised(equations, found.u, rate_jacobians)
+    fine = _linearised(found.finer, found.finer_u, found.finer.rate_jacobians(found.finer_u))
     spectrum, scale = coarse.spectrum, equations.rhs.scale
     apart = _distances(spectrum.multipliers, fine.spectrum.multipliers)
     velocity = equations.rates(points, period)[0] * scale
@@ -68,10 +73,11 @@ def linearise_collocated(found: Collocated, derivative_gap: float = 0.0) -> dict
     }
 
 
-def _linearised(equations: CollocationEquations, u: FloatArray) -> _Linearised:
+def _linearised(
+    equations: CollocationEquations, u: FloatArray, jacobians: FloatArray
+) -> _Linearised:
     points, period = equations.unpack(u)
     times, rhs = equations.times(period), equations.rhs
-    jacobians = rhs.jacobians(times, points)
     errors = rhs.jacobian_errors(times, points, jacobians)
     factors, factor_errors = flow_jacobians(period * jacobians)
     # To first order an error of the derivative acts for the length of an interval.

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from birdmb.errors import OrbitError, StateError
-from birdmb.orbits.collocation_search import search_by_collocation
+from birdmb.orbits.collocation_search import FEWEST_INSTANTS, search_by_collocation
 from birdmb.orbits.cycle import LimitCycle
 from birdmb.orbits.errors import (
     ArgumentError,
@@ -133,7 +133,7 @@ def find_limit_cycle(
                 max_iterations=max_iterations,
                 nodes=nodes,
                 accuracy=accuracy,
-                most_nodes=_most_nodes(model, method),
+                most_nodes=most_nodes(model, method),
                 callback=callback,
             )
         except ArgumentError:
@@ -175,15 +175,20 @@ def _without_rhs(model: Model) -> str:
     return "" if isinstance(model, HasRates | HasRhs) else "the model has no right-hand side"
 
 
-def _most_nodes(model: Model, method: SearchMethod) -> int:
+def most_nodes(model: Model, method: SearchMethod) -> int:
+    """Number of nodes beyond which an orbit is too rough for a method."""
     if method == "collocation":
         return _MOST_NODES
     return max(_MOST_NODES_BY_CHOICE, _MOST_UNKNOWNS_BY_CHOICE // len(model.state_names))
 
 
 def _points(guess: npt.ArrayLike | FloquetResult | None, segments: int) -> npt.ArrayLike | None:
-    """What shooting starts from: the starts of its segments of an orbit given as guess."""
+    """What shooting starts from: the starts of its segments of a path given as guess."""
     if not isinstance(guess, FloquetResult):
-        return guess
+        path = None if guess is None else np.asarray(guess, float)
+        # Of a shorter one that the segments do not fit, they would be made up.
+        if path is None or path.ndim != 2 or len(path) < FEWEST_INSTANTS or len(path) % segments:
+            return path
+        return path[:: len(path) // segments]
     phases = np.arange(segments) / segments
     return guess.trajectory(guess.start_time + phases * guess.period).states
