@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.airframe import airframe
+from birdmb.aerodynamics.elements import place_elements
 from birdmb.aerodynamics.prescribed import driven_at
 from birdmb.errors import StateError
 from birdmb.models.failures import lifting_line_lost, overflow_told, wing_misplaced
@@ -18,7 +19,7 @@ from birdmb.models.loads import Loads, LoadsAlong
 from birdmb.models.loads_kernel import loads_along
 from birdmb.topology import Bird
 from birdmb.wing.arrays import wing_arrays
-from birdmb.wing.stacked import StackedShapes, wing_shapes
+from birdmb.wing.stacked import StackedShapes, shape_at, wing_shapes
 
 # Divisible by 1 to 6: that many shooting segments then share one grid of steps.
 STEPS_PER_BEAT = 60
@@ -113,11 +114,12 @@ class WingModel(ABC):
     @property
     def wing_area(self) -> float:
         """Area of both wings on their drivers at t = 0, m2; raises `StateError` without one."""
-        angles, rates, _ = driven(self.wing, 0.0)
-        shape = wing_shape(self.wing, angles, rates, *self.discretisation)
-        if not shape.converged:
-            raise lifting_line_lost(self.bird, 0.0, angles)
-        elements = place_elements(shape, self.wing.root)
+        start = np.zeros(1)
+        angles, rates, _ = driven_at(self.wing, start)
+        shapes = wing_shapes(self.wing, angles, rates, *self.discretisation)
+        if not shapes.converged[0]:
+            raise lifting_line_lost(self.bird, 0.0, angles[0])
+        elements = place_elements(shape_at(shapes, 0), self.wing.root)
         return float(2.0 * np.sum(elements.chord * elements.width))
 
     def body_state(self, x: FloatArray) -> FloatArray:

@@ -23,7 +23,7 @@ from birdmb.provenance import software
 from birdmb.seal import sealed, unsealed
 from birdmb.text import on_one_line
 
-_FORMAT = 2
+_FORMAT = 3
 _SETTING = "setting_"
 
 
@@ -63,8 +63,9 @@ class Branch:
     def to_xarray(self) -> xr.Dataset:
         """Return the branch as a labelled dataset with real variables, fit for NetCDF.
 
-        Dimensions: point, state, segment, multiplier, unknown, bifurcation, side; variables of
-        bifurcations begin with `bifurcation_`.
+        Dimensions: point, state, segment (or node), multiplier, unknown, bifurcation, side;
+        variables of bifurcations begin with `bifurcation_`. Of an orbit with fewer states than
+        another (`segments` says how many), `states` and `tangent` end in NaN.
         """
         data = arrays_of(self.points, self.bifurcations)
         data["state_scale"] = xr.DataArray(self.state_scale, dims="state")

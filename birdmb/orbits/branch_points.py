@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 
 from birdmb._typing import BoolArray, ComplexArray, FloatArray
+from birdmb.orbits.cycle import OrbitMethod
 from birdmb.orbits.multipliers import Stability
 
 BifurcationKind = Literal["fold", "period doubling", "Neimark-Sacker", "branch point", "multiple"]
@@ -15,13 +16,17 @@ BifurcationKind = Literal["fold", "period doubling", "Neimark-Sacker", "branch p
 
 @dataclass(frozen=True)
 class BranchPoint:
-    """One orbit of a branch: `floquet(family(parameter), points, period, ...)` has all of it.
+    """One orbit of a branch.
+
+    All of it is had again by `floquet(family(parameter), points, period, segments=len(points))`
+    of a shot one, and by `find_limit_cycle(family(parameter), points, period_guess=period,
+    nodes=len(points))` of a collocated one, without `period_guess` if the system is forced.
 
     Attributes:
         parameter: value of the parameter.
         period: period in s.
-        points: states (M, n) at the starts of the shooting segments.
-        residual: closure error in the units of the states.
+        points: states (M, n) at the starts of the shooting segments, or at the collocation nodes.
+        residual: closure error, or `state_error`, in the units of the states.
         multipliers: (n,), largest modulus first.
         multiplier_errors: bound (n,) of the error of each.
         trivial_index: position of the trivial multiplier, `None` for a forced system.
@@ -29,6 +34,9 @@ class BranchPoint:
         tangent: unit tangent of the branch in scaled unknowns, in the direction of travel.
         next_step: length of the step that was to follow, from which a continuation resumes.
         observables: what the caller asked to be recorded of the orbit, by name.
+        method: "collocation" or "shooting".
+        state_error: largest error of the states of a collocated orbit, in units of their scale: the
+            correction on half as many nodes again; 0 of a shot one.
     """
 
     parameter: float
@@ -42,6 +50,13 @@ class BranchPoint:
     tangent: FloatArray
     next_step: float
     observables: dict[str, float] = field(default_factory=dict)
+    method: OrbitMethod = "shooting"
+    state_error: float = 0.0
+
+    @property
+    def nodes(self) -> int | None:
+        """Number of collocation nodes; `None` of a shot orbit."""
+        return len(self.points) if self.method == "collocation" else None
 
 
 @dataclass(frozen=True)

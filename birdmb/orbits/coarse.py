@@ -10,7 +10,7 @@ import numpy as np
 from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError, StateError
 from birdmb.orbits.collocation import FIRST_NODES, CollocationEquations, more_nodes
-from birdmb.orbits.collocation_search import derivative_gap, guessed_path
+from birdmb.orbits.collocation_search import guessed_path
 from birdmb.orbits.cycle import LimitCycle
 from birdmb.orbits.deflation import Deflated, Known, apart
 from birdmb.orbits.errors import ArgumentError
@@ -125,15 +125,11 @@ class CoarseSearch:
         self._scale = declared
         path, period = starts[0]
         require_period(model, path[0], declared, start, period)
-        rhs = RightHandSide(model, declared)
-        with_differences = derivative_gap(rhs, path / declared, start, period) > 0
-        self._equations = CollocationEquations(
-            RightHandSide(model, declared, by_differences=with_differences),
-            start,
-            self._period,
-            self._autonomous,
-            FIRST_NODES,
+        equations = CollocationEquations(
+            RightHandSide(model, declared), start, self._period, self._autonomous, FIRST_NODES
         )
+        contradicted = equations.derivative_gap(equations.pack(path / declared, period)) > 0
+        self._equations = equations.by_differences() if contradicted else equations
         self._repeats = state_repeats(model, declared)
         nodes = np.arange(FIRST_NODES) / FIRST_NODES
         for cycle in self._given:

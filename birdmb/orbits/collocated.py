@@ -13,7 +13,6 @@ from birdmb.orbits.collocation import Collocated, CollocationEquations, more_nod
 from birdmb.orbits.linearisation import trivial_mode
 from birdmb.orbits.multipliers import Spectrum, product
 from birdmb.orbits.periodic import periodic_multipliers
-from birdmb.orbits.trigonometric import resampled
 from birdmb.orbits.variational import flow_jacobians
 
 # The finer multipliers are better, not exact.
@@ -35,7 +34,10 @@ class _Linearised:
 
 
 def linearise_collocated(
-    found: Collocated, accuracy: float, derivative_gap: float = 0.0
+    found: Collocated[CollocationEquations],
+    accuracy: float,
+    derivative_gap: float = 0.0,
+    rate_jacobians: FloatArray | None = None,
 ) -> dict[str, Any]:
     """Linearise the rates along a collocated orbit.
 
@@ -47,12 +49,13 @@ def linearise_collocated(
     taken at more instants of it, as long as that makes the bounds smaller and they are above ten
     times the `accuracy` of the states; what the error of the orbit makes is then added.
     `derivative_gap` is by how much a derivative that the model gives contradicts the differences
-    that are taken instead.
+    that are taken instead. `rate_jacobians` (N, n, n) are the derivatives of the rates at the
+    nodes, if they are known.
 
     Returns:
         The fields of a `LimitCycle` but for its search, by name.
     """
-    at = _linearised(found.equations, found.u)
+    at = _linearised(found.equations, found.u, rate_jacobians)
     finer = _linearised(found.finer, found.finer_u)
     errors = _errors(at.spectrum, finer.spectrum)
     good = _GOOD_PER_ACCURACY * accuracy
@@ -66,7 +69,7 @@ def linearise_collocated(
         at, finer, errors = finer, finest, better
     if at.equations is not found.equations:
         # Of one orbit at different instants, its own error does not show.
-        rough = _linearised(at.equations, _on(at.equations, found.equations, found.u))
+        rough = _linearised(*found.equations.on_nodes(at.equations.nodes, found.u))
         errors = errors + _distances(at.spectrum.multipliers, rough.spectrum.multipliers)
     equations, spectrum = at.equations, at.spectrum
     points, period = equations.unpack(at.u)
@@ -97,10 +100,13 @@ def linearise_collocated(
     }
 
 
-def _linearised(equations: CollocationEquations, u: FloatArray) -> _Linearised:
+def _linearised(
+    equations: CollocationEquations, u: FloatArray, jacobians: FloatArray | None = None
+) -> _Linearised:
     points, period = equations.unpack(u)
+    if jacobians is None:
+        jacobians = equations.rate_jacobians(u)
     times, rhs = equations.times(period), equations.rhs
-    jacobians = rhs.jacobians(times, points)
     errors = rhs.jacobian_errors(times, points, jacobians)
     factors, factor_errors = flow_jacobians(period * jacobians)
     # To first order an error of the derivative acts for the length of an interval.
@@ -113,14 +119,7 @@ def _linearised(equations: CollocationEquations, u: FloatArray) -> _Linearised:
 
 
 def _on_more(at: _Linearised) -> tuple[CollocationEquations, FloatArray]:
-    equations = at.equations.with_nodes(more_nodes(at.equations.nodes))
-    return equations, _on(equations, at.equations, at.u)
-
-
-def _on(equations: CollocationEquations, given: CollocationEquations, u: FloatArray) -> FloatArray:
-    """Unknowns of other equations for the orbit that has unknowns `u` of those given."""
-    points, period = given.unpack(u)
-    return equations.pack(resampled(points, equations.nodes), period)
+    return at.equations.on_nodes(more_nodes(at.equations.nodes), at.u)
 
 
 def _errors(spectrum: Spectrum, finer: Spectrum) -> FloatArray:

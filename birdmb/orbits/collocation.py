@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import Protocol
+from typing import Generic, Protocol, Self, TypeVar
 
 import numpy as np
 from scipy.linalg import lapack
@@ -13,7 +13,7 @@ from scipy.linalg import lapack
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
 from birdmb.orbits.errors import NotSmoothError
-from birdmb.orbits.newton import Damping, Iteration, solve
+from birdmb.orbits.newton import Damping, Equations, Iteration, solve
 from birdmb.orbits.right_hand_side import RightHandSide
 from birdmb.orbits.trigonometric import differentiation_matrix, resampled
 
@@ -31,12 +31,44 @@ _ERROR_PER_CORRECTION = 2.0
 _NOISE = 100.0
 
 
-class _Latest:
+class LatestJacobians:
+    """The derivatives of the rates that a search took last."""
+
+    jacobians: FloatArray | None = None
+
+
+class _Latest(LatestJacobians):
     """What was evaluated last: a residual and a Jacobian at the same point share the rates."""
 
     period = math.nan
     points = rates = np.empty(0)
-    jacobians: FloatArray | None = None
+
+
+class OnNodes(Equations, Protocol):
+    """Equations of an orbit on nodes, the number of which can be chosen."""
+
+    @property
+    def nodes(self) -> int:
+        """Number N of nodes."""
+
+    @property
+    def latest(self) -> LatestJacobians:
+        """What `jacobian` took last."""
+
+    def rate_jacobians(self, u: FloatArray) -> FloatArray:
+        """Derivatives (N, n, n) of the rates by the scaled states."""
+
+    def assemble(self, u: FloatArray, rate_jacobians: FloatArray) -> FloatArray:
+        """Derivative of the residual from them."""
+
+    def round_off(self, u: FloatArray) -> float:
+        """Norm that round-off leaves of the residual."""
+
+    def on_nodes(self, nodes: int, u: FloatArray) -> tuple[Self, FloatArray]:
+        """The same equations and unknowns on other nodes."""
+
+
+EquationsT = TypeVar("EquationsT", bound=OnNodes)
 
 
 @dataclass(frozen=True)
@@ -60,9 +92,19 @@ class CollocationEquations:
     # One Jacobian costs 2 n residuals where it is taken by differences, and an LU anyway.
     dear_jacobian = True
 
+    def on_nodes(self, nodes: int, u: FloatArray) -> tuple[CollocationEquations, FloatArray]:
+        """The same equations and unknowns on other nodes."""
+        points, period = self.unpack(u)
+        other = self.with_nodes(nodes)
+        return other, other.pack(resampled(points, nodes), period)
+
     def with_nodes(self, nodes: int) -> CollocationEquations:
         """The same equations on other nodes."""
         return replace(self, nodes=nodes, latest=_Latest())
+
+    def by_differences(self) -> CollocationEquations:
+        """The same equations with derivatives of the rates by differences."""
+        return replace(self, rhs=replace(self.rhs, by_differences=True), latest=_Latest())
 
     def pack(self, points: FloatArray, period: float) -> FloatArray:
         """Unknowns of the orbit with scaled states `points` (N, n)."""
@@ -111,9 +153,20 @@ class CollocationEquations:
 
     def jacobian(self, u: FloatArray) -> FloatArray:
         """Derivative of the residual."""
-        points, period = self.unpack(u)
-        self.latest.jacobians = self.rhs.jacobians(self.times(period), points)
+        self.latest.jacobians = self.rate_jacobians(u)
         return self.assemble(u, self.latest.jacobians)
+
+    def rate_jacobians(self, u: FloatArray) -> FloatArray:
+        """Derivatives (N, n, n) of the rates by the scaled states at the nodes."""
+        points, period = self.unpack(u)
+        return self.rhs.jacobians(self.times(period), points)
+
+    def derivative_gap(self, u: FloatArray) -> float:
+        """By how much a derivative that the model gives contradicts differences; 0 if it agrees."""
+        if not self.rhs.has_derivative:
+            return 0.0
+        points, period = self.unpack(u)
+        return self.rhs.derivative_gap(self.times(period), points, self.rate_jacobians(u))
 
     def assemble(self, u: FloatArray, rate_jacobians: FloatArray) -> FloatArray:
         """Derivative of the residual from the derivatives (N, n, n) of the rates."""
@@ -150,7 +203,7 @@ class HasNodes(Protocol):
 
 
 @dataclass(frozen=True)
-class Collocated:
+class Collocated(Generic[EquationsT]):
     """A solution of the collocation equations, and what a finer one makes of it.
 
     Attributes:
@@ -164,10 +217,10 @@ class Collocated:
         iterations: steps of Newton's method on all numbers of nodes.
     """
 
-    equations: CollocationEquations
+    equations: EquationsT
     u: FloatArray
     residual: FloatArray
-    finer: CollocationEquations
+    finer: EquationsT
     finer_u: FloatArray
     state_error: float
     iterations: tuple[Iteration, ...]
@@ -184,9 +237,8 @@ def fewer_nodes(nodes: int) -> int:
 
 
 def collocate(
-    equations: CollocationEquations,
-    points: FloatArray,
-    period: float,
+    equations: EquationsT,
+    u: FloatArray,
     *,
     damping: Damping,
     tolerance: float,
@@ -195,8 +247,8 @@ def collocate(
     most_nodes: int,
     fixed: bool = False,
     callback: Callable[[Iteration], None] | None = None,
-) -> Collocated:
-    """Solve the equations on as many nodes as the orbit needs, from scaled `points` (N, n).
+) -> Collocated[EquationsT]:
+    """Solve the equations on as many nodes as the orbit needs, from the unknowns `u`.
 
     The number of nodes grows by half until the correction that a Newton step on half as many again
     makes is below `accuracy` (state scales). `fixed`: the number given is kept, whatever it leaves.
@@ -208,7 +260,6 @@ def collocate(
     """
     history: list[Iteration] = []
     errors: list[float] = []
-    u = equations.pack(points, period)
     first: FloatArray | None = None
 
     def record(iteration: Iteration) -> None:
@@ -226,12 +277,9 @@ def collocate(
             callback=record,
             first_jacobian=None if first is None else equations.assemble(u, first),
         )
-        points, period = equations.unpack(u)
         jacobians = equations.latest.jacobians
         if jacobians is None:
-            jacobians = first
-        if jacobians is None:
-            jacobians = equations.rhs.jacobians(equations.times(period), points)
+            jacobians = equations.rate_jacobians(u) if first is None else first
         finer, finer_u, error = _correction(equations, u, jacobians)
         if fixed or error <= accuracy:
             return Collocated(equations, u, residual, finer, finer_u, error, tuple(history))
@@ -242,16 +290,14 @@ def collocate(
 
 
 def _correction(
-    equations: CollocationEquations, u: FloatArray, jacobians: FloatArray
-) -> tuple[CollocationEquations, FloatArray, float]:
+    equations: EquationsT, u: FloatArray, jacobians: FloatArray
+) -> tuple[EquationsT, FloatArray, float]:
     """The equations on more nodes, unknowns after a Newton step there, and the step's size.
 
     The derivatives on the finer nodes are those interpolated: they decide how good the step is, not
     where it leads.
     """
-    points, period = equations.unpack(u)
-    finer = equations.with_nodes(more_nodes(equations.nodes))
-    start = finer.pack(resampled(points, finer.nodes), period)
+    finer, start = equations.on_nodes(more_nodes(equations.nodes), u)
     matrix = finer.assemble(start, resampled(jacobians, finer.nodes))
     residual = finer.residual(start)
     # Least squares where the orbit is one of a family: its Jacobian is singular.

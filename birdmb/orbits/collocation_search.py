@@ -40,7 +40,8 @@ from birdmb.orbits.shooting_search import (
 from birdmb.orbits.trigonometric import resampled, without_drift
 
 # Fewer instants do not show a path: it is then flown from them.
-_FEWEST_INSTANTS = 9
+FEWEST_INSTANTS = 9
+_Found = Collocated[CollocationEquations]
 
 
 def search_by_collocation(
@@ -73,14 +74,21 @@ def search_by_collocation(
     declared = declared_scale(model)
     scale = sizes_along(model, path, start_time, period) if declared is None else declared
     require_period(model, path[0], scale, start_time, period)
-    gap = derivative_gap(RightHandSide(model, scale), path / scale, start_time, period)
 
-    def search(path: FloatArray, period: float, scale: FloatArray) -> Collocated:
-        rhs = RightHandSide(model, scale, by_differences=gap > 0)
+    def equations_on(scale: FloatArray, period: float, nodes: int) -> CollocationEquations:
+        rhs = RightHandSide(model, scale)
+        return CollocationEquations(rhs, start_time, period, autonomous, nodes)
+
+    guessed = equations_on(scale, period, len(path))
+    gap = guessed.derivative_gap(guessed.pack(path / scale, period))
+
+    def search(path: FloatArray, period: float, scale: FloatArray) -> _Found:
+        equations = equations_on(scale, period, len(path))
+        if gap > 0:
+            equations = equations.by_differences()
         return collocate(
-            CollocationEquations(rhs, start_time, period, autonomous, len(path)),
-            path / scale,
-            period,
+            equations,
+            equations.pack(path / scale, period),
             damping=damping,
             tolerance=tolerance,
             accuracy=accuracy,
@@ -105,7 +113,7 @@ def search_by_collocation(
     return collocated_cycle(replace(found, iterations=iterations), accuracy, gap)
 
 
-def collocated_cycle(found: Collocated, accuracy: float, derivative_gap: float = 0.0) -> LimitCycle:
+def collocated_cycle(found: _Found, accuracy: float, derivative_gap: float = 0.0) -> LimitCycle:
     """The cycle that was found, of the type that its model names; see `linearise_collocated`."""
     model = found.equations.rhs.model
     fields = linearise_collocated(found, accuracy, derivative_gap)
@@ -121,16 +129,6 @@ def nodes_shown(guess: npt.ArrayLike | FloquetResult | None) -> int:
         return fewer_nodes(shown or 1)
     shape = () if guess is None else np.shape(guess)
     return shape[0] if len(shape) == 2 and shape[0] % 2 else 0
-
-
-def derivative_gap(
-    rhs: RightHandSide, points: FloatArray, start_time: float, period: float
-) -> float:
-    """By how much a derivative that the model gives contradicts differences; 0 if it does not."""
-    if not rhs.has_derivative:
-        return 0.0
-    times = start_time + period * np.arange(len(points)) / len(points)
-    return rhs.derivative_gap(times, points, rhs.jacobians(times, points))
 
 
 def guessed_path(
@@ -166,7 +164,7 @@ def guessed_path(
         )
     if not np.isfinite(states).all():
         raise ArgumentError("the guess holds values that are not finite.")
-    if states.ndim == 2 and len(states) >= _FEWEST_INSTANTS:
+    if states.ndim == 2 and len(states) >= FEWEST_INSTANTS:
         if len(states) % 2:
             return resampled(states, nodes)
         closed = np.concatenate([states, states[:1]])
@@ -191,12 +189,12 @@ def _flown(
 
 
 def _on_enough_nodes(
-    search: Callable[[FloatArray, float, FloatArray], Collocated],
+    search: Callable[[FloatArray, float, FloatArray], _Found],
     path: FloatArray,
     period: float,
     scale: FloatArray,
     most_nodes: int,
-) -> Collocated:
+) -> _Found:
     """The solution from a path; on more nodes at first where there is none on few."""
     nodes = len(path)
     larger = more_nodes(more_nodes(nodes))
@@ -213,7 +211,7 @@ def _on_enough_nodes(
             raise first_error from None
 
 
-def _refuse_equilibrium(found: Collocated, iterations: tuple[Iteration, ...]) -> None:
+def _refuse_equilibrium(found: _Found, iterations: tuple[Iteration, ...]) -> None:
     if not found.equations.autonomous:
         return
     points, period = found.equations.unpack(found.u)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import Executor
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Literal
 
@@ -13,11 +14,15 @@ import numpy.typing as npt
 
 from birdmb.orbits.branch import Branch
 from birdmb.orbits.branch_points import Bifurcation, BranchPoint
+from birdmb.orbits.cycle import LimitCycle
 from birdmb.orbits.errors import ArgumentError, BranchStopped, SingularJacobianError
 from birdmb.orbits.extended import ExtendedEquations, Family
-from birdmb.orbits.search import find_limit_cycle
+from birdmb.orbits.extended_collocation import ExtendedCollocation
+from birdmb.orbits.extended_shooting import ExtendedShooting
+from birdmb.orbits.search import SearchMethod, find_limit_cycle, most_nodes
 from birdmb.orbits.segments import choose_jacobian
 from birdmb.orbits.tracer import Observables, Steps, Tracer
+from birdmb.orbits.trigonometric import resampled
 from birdmb.provenance import software
 
 _DEFAULT_STEPS = Steps()
@@ -30,7 +35,9 @@ def continue_branch(
     *,
     parameter_name: str = "parameter",
     period_guess: float | None = None,
-    segments: int = 1,
+    method: SearchMethod = "auto",
+    accuracy: float = 1e-7,
+    segments: int | None = None,
     start_time: float = 0.0,
     steps: Steps = _DEFAULT_STEPS,
     max_points: int = 200,
@@ -46,13 +53,14 @@ def continue_branch(
 ) -> Branch:
     """Follow periodic orbits in one parameter by pseudo-arclength continuation.
 
-    Predictor along the tangent, corrector by multiple shooting on the plane across it (Keller 1977;
-    Kuznetsov 2004, chapter 10), steps adapted to the corrector's iterations and to the turn of the
-    tangent. Folds are passed. Between points, sign changes of test functions (fold, branch point,
-    period doubling) and what they leave unexplained of a change in the number of multipliers
-    outside the unit circle are located by Brent's method along the arclength. Crossings between two
-    neighbouring points that cancel, the one outwards and the other inwards, leave no trace there:
-    take shorter steps.
+    Predictor along the tangent, corrector on the plane across it (Keller 1977; Kuznetsov 2004,
+    chapter 10), by the method of `find_limit_cycle` that found the orbit at the start of the range.
+    Steps are adapted to the corrector's iterations and to the turn of the tangent, the nodes of
+    collocation to the error of each orbit. Folds are passed. Between points, sign changes of test
+    functions (fold, branch point, period doubling) and what they leave unexplained of a change in
+    the number of multipliers outside the unit circle are located by Brent's method along the
+    arclength. Crossings between two neighbouring points that cancel, the one outwards and the other
+    inwards, leave no trace there: take shorter steps.
 
     Args:
         family: function of the parameter that returns the model. It may raise a `BirdmbError` where
@@ -61,7 +69,11 @@ def continue_branch(
         guess: orbit at the start of the range, as for `find_limit_cycle`.
         parameter_name: name for labels.
         period_guess: as for `find_limit_cycle`.
-        segments: number M of shooting segments.
+        method: "collocation", "shooting" or "auto", as for `find_limit_cycle`. Where orbits become
+            too rough for collocation, "auto" goes on by shooting over one segment from there, and
+            "collocation" stops.
+        accuracy: largest error of the states accepted by collocation, in units of their scale.
+        segments: number M of shooting segments; given, it makes "auto" choose shooting.
         start_time: time of the first state, in s.
         steps: step sizes.
         max_points: number of points allowed, those resumed from included.
@@ -71,7 +83,7 @@ def continue_branch(
         observables: functions of the `LimitCycle`, by name, whose values are kept at every point.
         resume: a branch of the same family over the same range to go on with from its last point,
             the way it would have gone; `guess`, `period_guess`, `segments` and `start_time` are
-            then its own.
+            then its own, and so is the method at its last point.
         store: file in which the branch is saved after every point, so that nothing is lost.
         settings: texts and numbers to keep with the branch.
         executor: spreads flows over workers; results do not depend on it.
@@ -100,6 +112,8 @@ def continue_branch(
         cycle = find_limit_cycle(
             model,
             guess,
+            method=method,
+            accuracy=accuracy,
             period_guess=period_guess,
             segments=segments,
             start_time=start_time,
@@ -107,34 +121,25 @@ def continue_branch(
             jacobian=jacobian,
             executor=executor,
         )
-        scale, orbit, period = cycle.state_scale, cycle.points, cycle.period
+        scale, period, taken = cycle.state_scale, cycle.period, cycle.method
+        # Multipliers may have taken more instants than the orbit has nodes.
+        orbit = resampled(cycle.points, cycle.nodes or len(cycle.points))
     else:
-        start_time, scale = resume.start_time, resume.state_scale
+        start_time, scale, taken = resume.start_time, resume.state_scale, resume.points[-1].method
         orbit, period = resume.points[0].points, resume.points[0].period
-    size = orbit.size + (model.period is None) + 1
-    ahead = np.append(np.zeros(size - 1), np.sign(last - first))
-    equations = ExtendedEquations(
-        family=family,
-        parameter_range=(min(first, last), max(first, last)),
-        scale=scale,
-        start=start_time,
-        period_unit=period,
-        jacobian_method=choose_jacobian(model, jacobian),
-        executor=executor,
-        anchor=np.zeros(size),
-        direction=ahead,
-    )
-    tracer = Tracer(equations, steps, tolerance, observables or {})
+    nowhere = np.zeros(orbit.size + (model.period is None) + 1)
+    ends = min(first, last), max(first, last)
+    place = family, ends, scale, start_time, period, nowhere, nowhere, 0.0
+    equations: ExtendedEquations
+    equations = shooting = ExtendedShooting(*place, choose_jacobian(model, jacobian), executor)
+    if taken == "collocation":
+        equations = ExtendedCollocation(*place, len(orbit), accuracy, most_nodes(model, method))
+        equations = equations.with_sound_derivatives(equations.unknowns(first, orbit, period))
+    instead = shooting if taken == "collocation" and method == "auto" else None
+    tracer = Tracer(equations, steps, tolerance, observables or {}, instead)
     if resume is None:
-        try:
-            points = [tracer.point_at(tracer.unknowns(begin, orbit, period), ahead)]
-        except np.linalg.LinAlgError as error:
-            raise SingularJacobianError(
-                f"The orbit at {parameter_name} = {begin:.8g} is one of a continuous family, or a "
-                f"bifurcation to the last digit: no single branch leads on; try another start.",
-                orbit[0],
-                cycle.residual,
-            ) from error
+        with _one_branch_alone(f"{parameter_name} = {begin:.8g}", cycle):
+            points = [tracer.first_point(begin, orbit, period, last - first)]
         bifurcations: list[Bifurcation] = []
     else:
         points = list(resume.points)
@@ -171,6 +176,20 @@ def continue_branch(
         if callback is not None:
             callback(item)
     return kept(tracer.stopped)
+
+
+@contextmanager
+def _one_branch_alone(where: str, cycle: LimitCycle) -> Iterator[None]:
+    """Say so if no tangent of the branch can be found."""
+    try:
+        yield
+    except np.linalg.LinAlgError as error:
+        raise SingularJacobianError(
+            f"The orbit at {where} is one of a continuous family, or a bifurcation to the last "
+            f"digit: no single branch leads on; try another start.",
+            cycle.x0,
+            cycle.residual,
+        ) from error
 
 
 def _continued(before: Mapping[str, str]) -> dict[str, str]:

@@ -51,6 +51,7 @@ class NotClosedError(OrbitError):
 
 StopReason = Literal[
     "the step became too small",
+    "the orbits became too rough for collocation",
     "the branch left the domain of the model",
     "the number of points allowed was reached",
     "the cycles shrank to an equilibrium",

@@ -1,20 +1,21 @@
-"""Shooting equations with a model parameter as one more unknown."""
+"""The equations of an orbit with a model parameter as one more unknown."""
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
-from concurrent.futures import Executor
 from dataclasses import dataclass, replace
+from typing import Any, Self
 
 import numpy as np
 import scipy.sparse as sp
 
 from birdmb._typing import FloatArray
 from birdmb.errors import BirdmbError, StateError
-from birdmb.orbits.newton import factorise
-from birdmb.orbits.problem import Model
-from birdmb.orbits.segments import JacobianMethod, Segments
-from birdmb.orbits.shooting import ShootingEquations
+from birdmb.orbits.branch_points import BranchPoint
+from birdmb.orbits.cycle import LimitCycle, OrbitMethod
+from birdmb.orbits.newton import Equations, Iteration, Matrix, factorise
+from birdmb.orbits.problem import HasLimitCycleType, Model
 
 Family = Callable[[float], Model]
 
@@ -23,12 +24,22 @@ _PARAMETER_STEP = 1e-5
 
 
 @dataclass(frozen=True)
-class ExtendedEquations:
-    """Closure of the orbit of family(p), and a plane that the solution lies on (Keller 1977).
+class Solution:
+    """An orbit that lies on the plane of its equations, and how it was found."""
 
-    Unknowns: those of `ShootingEquations`, then p in units of the parameter range. The plane is
+    equations: ExtendedEquations
+    u: FloatArray
+    iterations: tuple[Iteration, ...]
+
+
+@dataclass(frozen=True)
+class ExtendedEquations(ABC):
+    """The orbit of family(p), and a plane that the solution lies on (Keller 1977).
+
+    Unknowns: those of the orbit's equations, then p in units of the parameter range. The plane is
     the set of points at `distance` from `anchor` along `direction`, in the inner product in which a
-    mean square over the segments' states, the period and the parameter weigh alike.
+    mean square over the orbit's states, the period and the parameter weigh alike: it does not
+    depend on how many states there are.
     """
 
     family: Family
@@ -36,15 +47,57 @@ class ExtendedEquations:
     scale: FloatArray
     start: float
     period_unit: float
-    jacobian_method: JacobianMethod
-    executor: Executor | None
     anchor: FloatArray
     direction: FloatArray
-    distance: float = 0.0
+    distance: float
 
-    def on_plane(
-        self, anchor: FloatArray, direction: FloatArray, distance: float = 0.0
-    ) -> ExtendedEquations:
+    @property
+    @abstractmethod
+    def method(self) -> OrbitMethod:
+        """How the orbits are made discrete."""
+
+    @property
+    @abstractmethod
+    def dear_jacobian(self) -> bool:
+        """As of the orbit's equations."""
+
+    @abstractmethod
+    def excess(self, iterations: tuple[Iteration, ...]) -> int:
+        """By how much the corrector worked more than after a step of the right length."""
+
+    @abstractmethod
+    def orbit(self, parameter: float) -> Equations:
+        """Equations of the orbit at a parameter; StateError where there is no model."""
+
+    @abstractmethod
+    def unknowns(self, parameter: float, points: FloatArray, period: float) -> FloatArray:
+        """Unknowns of an orbit with states `points` (M, n)."""
+
+    @abstractmethod
+    def from_point(self, point: BranchPoint) -> tuple[Self, FloatArray, FloatArray]:
+        """Equations that suit a step from a point, its unknowns there, and its tangent."""
+
+    @abstractmethod
+    def carried(self, vector: FloatArray) -> FloatArray:
+        """Unknowns or a tangent of the same kind of equations, as vector of these."""
+
+    @abstractmethod
+    def corrected(self, u: FloatArray, tolerance: float, max_iterations: int) -> Solution:
+        """The solution from a guess; raises the errors of `solve`."""
+
+    @abstractmethod
+    def solution_at(self, u: FloatArray) -> Solution:
+        """The solution `u` as it is."""
+
+    @abstractmethod
+    def linearised(self, solution: Solution) -> tuple[dict[str, Any], Matrix]:
+        """Fields of the `LimitCycle` of a solution of these equations, and their Jacobian there."""
+
+    @abstractmethod
+    def velocities(self, u: FloatArray) -> FloatArray:
+        """Rates (M, n) of the scaled states along an orbit."""
+
+    def on_plane(self, anchor: FloatArray, direction: FloatArray, distance: float = 0.0) -> Self:
         """Return the same equations on another plane."""
         return replace(self, anchor=anchor, direction=direction, distance=distance)
 
@@ -58,56 +111,62 @@ class ExtendedEquations:
         return float(u[-1]) * self.unit
 
     def inner(self, a: FloatArray, b: FloatArray) -> float:
-        """Inner product that does not depend on the number of segments."""
+        """Inner product that does not depend on the number of states."""
         return float(a @ (self._weights(len(a)) * b))
 
-    def shooting(self, parameter: float) -> ShootingEquations:
-        """Shooting equations of the model at a parameter; StateError where there is none."""
+    def model(self, parameter: float) -> Model:
+        """Member of the family; StateError where there is none."""
         low, high = self.parameter_range
         margin = 1e-9 * self.unit
         if not low - margin <= parameter <= high + margin:
             raise StateError(f"The parameter {parameter:.8g} is outside {low:.8g} to {high:.8g}.")
         try:
-            model = self.family(min(max(parameter, low), high))
+            return self.family(min(max(parameter, low), high))
         except BirdmbError as error:
             raise StateError(f"No model at parameter {parameter:.8g}: {error}") from error
-        segments = Segments(model, self.scale, self.start, self.jacobian_method, self.executor)
-        autonomous = model.period is None
-        return ShootingEquations(segments, model.period or self.period_unit, autonomous)
-
-    @property
-    def dear_jacobian(self) -> bool:
-        """As of the shooting equations."""
-        return self.jacobian_method == "finite-differences"
 
     def start_and_period(self, u: FloatArray) -> tuple[FloatArray, float]:
         """State (n,) at the start and the period."""
-        return self.shooting(self.parameter(u)).start_and_period(u[:-1])
+        return self.orbit(self.parameter(u)).start_and_period(u[:-1])
 
     def closure(self, residual: FloatArray) -> float:
         """Largest closure error in the units of the states."""
-        count = (len(residual) - 1) // len(self.scale) * len(self.scale)
-        return float(np.abs(residual[:count].reshape(-1, len(self.scale)) * self.scale).max())
+        return self.orbit(self.parameter(self.anchor)).closure(residual[:-1])
 
     def residual(self, u: FloatArray) -> FloatArray:
-        """Closure errors and distance from the plane."""
-        gaps = self.shooting(self.parameter(u)).residual(u[:-1])
+        """Residual of the orbit and distance from the plane."""
+        gaps = self.orbit(self.parameter(u)).residual(u[:-1])
         return np.append(gaps, self.inner(self.direction, u - self.anchor) - self.distance)
 
-    def jacobian(self, u: FloatArray) -> sp.csc_array:
+    def jacobian(self, u: FloatArray) -> Matrix:
         """Derivative of the residual."""
-        return self._border(u, self.shooting(self.parameter(u)).jacobian(u[:-1]))
+        return self.border(u, self.orbit(self.parameter(u)).jacobian(u[:-1]))
 
-    def tangent(self, u: FloatArray, factors: FloatArray) -> FloatArray:
-        """Unit tangent of the branch at a solution with segment Jacobians `factors` (M, n, n).
+    def border(self, u: FloatArray, matrix: Matrix) -> Matrix:
+        """Derivative of the residual from that of the orbit's equations."""
+        low, high = self.parameter_range
+        p, step = self.parameter(u), _PARAMETER_STEP * self.unit
+        above, below = min(p + step, high), max(p - step, low)
+        change = self.orbit(above).residual(u[:-1]) - self.orbit(below).residual(u[:-1])
+        column = change / (above - below) * self.unit
+        row = self._weights(len(u)) * self.direction
+        if isinstance(matrix, np.ndarray):
+            return np.vstack([np.column_stack([matrix, column]), row])
+        wide = sp.hstack([matrix, sp.coo_array(column[:, None])])
+        return sp.csc_array(sp.vstack([wide, sp.coo_array(row[None, :])]))
+
+    def cycle_and_tangent(self, solution: Solution) -> tuple[LimitCycle, FloatArray]:
+        """The orbit of a solution of these equations, and the unit tangent of the branch there.
 
         It points to the side of the plane that `direction` points to.
         """
-        shooting = self.shooting(self.parameter(u))
-        matrix = self._border(u, shooting.assemble(*shooting.unpack(u[:-1]), factors))
+        fields, matrix = self.linearised(solution)
+        model = fields["model"]
+        kind = model.limit_cycle_type if isinstance(model, HasLimitCycleType) else LimitCycle
+        cycle: LimitCycle = kind(**fields, iterations=solution.iterations)
         solve, _ = factorise(matrix)
-        tangent = solve(np.append(np.zeros(len(u) - 1), 1.0))
-        return np.asarray(tangent / np.sqrt(self.inner(tangent, tangent)))
+        tangent = solve(np.append(np.zeros(len(solution.u) - 1), 1.0))
+        return cycle, np.asarray(tangent / np.sqrt(self.inner(tangent, tangent)))
 
     def _weights(self, size: int) -> FloatArray:
         weights = np.ones(size)
@@ -115,13 +174,3 @@ class ExtendedEquations:
         count = (size - 1) // n * n
         weights[:count] = n / count
         return weights
-
-    def _border(self, u: FloatArray, matrix: sp.csc_array) -> sp.csc_array:
-        low, high = self.parameter_range
-        p, step = self.parameter(u), _PARAMETER_STEP * self.unit
-        above, below = min(p + step, high), max(p - step, low)
-        change = self.shooting(above).residual(u[:-1]) - self.shooting(below).residual(u[:-1])
-        column = change / (above - below) * self.unit
-        row = self._weights(len(u)) * self.direction
-        wide = sp.hstack([matrix, sp.coo_array(column[:, None])])
-        return sp.csc_array(sp.vstack([wide, sp.coo_array(row[None, :])]))

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from birdmb.errors import OrbitError, StateError
-from birdmb.orbits.collocation_search import search_by_collocation
+from birdmb.orbits.collocation_search import FEWEST_INSTANTS, search_by_collocation
 from birdmb.orbits.cycle import LimitCycle
 from birdmb.orbits.errors import (
     ArgumentError,
@@ -142,16 +142,12 @@ def find_limit_cycle(
         except (OrbitError, StateError) as error:
             if method == "collocation" or nodes is not None:
                 raise
-            reason = f"collocation failed: {error}"
-            if not (guess is None or isinstance(guess, FloquetResult)) and np.ndim(guess) == 2:
-                start = np.asarray(guess, float)[0]
+            reason, start = f"collocation failed: {error}", _beginning(guess)
             if isinstance(error, NotSmoothError):
                 reason = str(error).partition(" Take method=")[0]
                 if error.residual < NEAR:
                     start = error.best_x
                     period_guess = error.history[-1].period if period_guess else None
-            if start is guess and not isinstance(guess, FloquetResult) and np.ndim(guess) == 2:  # type: ignore[arg-type]
-                start = np.asarray(guess, float)[0]
     count = 1 if segments is None else segments
     return search_by_shooting(
         model,
@@ -168,6 +164,16 @@ def find_limit_cycle(
         callback=callback,
         reason=reason or 'method="shooting" was asked for',
     )
+
+
+def _beginning(
+    guess: npt.ArrayLike | FloquetResult | None,
+) -> npt.ArrayLike | FloquetResult | None:
+    """A guess that collocation was given, as one that shooting takes: its first state."""
+    if guess is None or isinstance(guess, FloquetResult):
+        return guess
+    states = np.asarray(guess, float)
+    return states[0] if states.ndim == 2 else states
 
 
 def _options_of_shooting(segments: int | None, jacobian: str) -> str:
@@ -188,8 +194,12 @@ def most_nodes(model: Model, method: SearchMethod) -> int:
 
 
 def _points(guess: npt.ArrayLike | FloquetResult | None, segments: int) -> npt.ArrayLike | None:
-    """What shooting starts from: the starts of its segments of an orbit given as guess."""
+    """What shooting starts from: the starts of its segments of a path given as guess."""
     if not isinstance(guess, FloquetResult):
-        return guess
+        path = None if guess is None else np.asarray(guess, float)
+        # Of a shorter one that the segments do not fit, they would be made up.
+        if path is None or path.ndim != 2 or len(path) < FEWEST_INSTANTS or len(path) % segments:
+            return path
+        return path[:: len(path) // segments]
     phases = np.arange(segments) / segments
     return guess.trajectory(guess.start_time + phases * guess.period).states

@@ -16,19 +16,15 @@ from birdmb.orbits.errors import (
     BIFURCATIONS_FOUND,
     BranchStopped,
     ConvergenceError,
+    NotSmoothError,
     StopReason,
 )
-from birdmb.orbits.extended import ExtendedEquations
-from birdmb.orbits.linearisation import linearise
+from birdmb.orbits.extended import ExtendedEquations, Solution
 from birdmb.orbits.locating import Chord, locate, outside_after
-from birdmb.orbits.newton import Iteration, solve
-from birdmb.orbits.periodic import periodic_multipliers
-from birdmb.orbits.problem import HasLimitCycleType
 
 Observables = Mapping[str, Callable[[LimitCycle], float]]
 
 _CORRECTOR_ITERATIONS = 12
-_IDEAL_JACOBIANS = 3
 # A sharper turn between two points, or a longer way from the predicted one to the point, is retried
 # with a shorter step, so that no fold and no branch is jumped over.
 _LEAST_COSINE = 0.9
@@ -66,43 +62,23 @@ class Tracer:
         steps: Steps,
         tolerance: float,
         observables: Observables,
+        instead: ExtendedEquations | None = None,
     ) -> None:
-        """Take the equations on any plane, and how to go."""
+        """Take the equations on any plane, how to go, and what to take of orbits too rough."""
         self.stopped: BranchStopped | None = None
-        self._equations = equations
+        self._equations, self._instead = equations, instead
         self._steps = steps
         self._tolerance = tolerance
         self._observables = observables
 
-    def unknowns(self, parameter: float, points: FloatArray, period: float) -> FloatArray:
-        """Scaled unknowns of an orbit."""
-        shooting = self._equations.shooting(parameter)
-        return np.append(shooting.pack(points, period), parameter / self._equations.unit)
-
-    def point_at(
-        self, u: FloatArray, direction: FloatArray, iterations: tuple[Iteration, ...] = ()
+    def first_point(
+        self, parameter: float, points: FloatArray, period: float, towards: float
     ) -> BranchPoint:
-        """Linearise the orbit of the solution `u`; its tangent points along `direction`."""
-        parameter = self._equations.parameter(u)
-        shooting = self._equations.shooting(parameter)
-        fields = linearise(shooting, *shooting.unpack(u[:-1]), periodic_multipliers)
-        model = shooting.segments.model
-        kind = model.limit_cycle_type if isinstance(model, HasLimitCycleType) else LimitCycle
-        cycle: LimitCycle = kind(**fields, iterations=iterations)
-        plane = self._equations.on_plane(u, direction)
-        return BranchPoint(
-            parameter=parameter,
-            period=cycle.period,
-            points=cycle.points,
-            residual=cycle.residual,
-            multipliers=cycle.multipliers,
-            multiplier_errors=cycle.multiplier_errors,
-            trivial_index=cycle.trivial_index,
-            stability=cycle.stability,
-            tangent=plane.tangent(u, cycle.segment_jacobians),
-            next_step=self._steps.first,
-            observables={name: float(value(cycle)) for name, value in self._observables.items()},
-        )
+        """The branch's point of an orbit with states `points`; the sign `towards` is the way on."""
+        u = self._equations.unknowns(parameter, points, period)
+        ahead = np.append(np.zeros(len(u) - 1), np.sign(towards))
+        solution = self._equations.on_plane(u, ahead).solution_at(u)
+        return self.observed(*self._point(solution, ahead))
 
     def follow(
         self,
@@ -123,65 +99,88 @@ class Tracer:
                 self._stop("the number of points allowed was reached", point)
                 return
             # Always from the point as it is kept: a branch that is resumed then takes the same way.
-            u = self.unknowns(point.parameter, point.points, point.period)
+            equations, u, tangent = self._equations.from_point(point)
             try:
-                new_u, iterations = self._correct(u, point.tangent, step)
-                new = self.point_at(new_u, point.tangent, iterations)
-                self._check_neighbours(point, u, new, new_u)
+                solution = self._ahead(equations, u, tangent, step)
+                new, cycle = self._point(solution, tangent)
+                equations = solution.equations
+                u, tangent = equations.carried(u), equations.carried(tangent)
+                self._check_neighbours(equations, u, tangent, solution.u, new.tangent)
             except _Failure as error:
+                rough = isinstance(error, NotSmoothError) and step < self._steps.first
+                if rough and self._instead is not None:
+                    self._equations, self._instead = self._instead, None
+                    continue
                 step /= 2
-                if step < self._steps.shortest:
-                    self._stop(self._reason(error, u, point), point, str(error))
+                if rough or step < self._steps.shortest:
+                    self._stop(self._reason(error, equations, u, tangent), point, str(error))
                     return
                 continue
-            if self._passed_equilibrium(point, new):
+            if point.trivial_index is not None and _turned_over(equations, u, solution.u):
                 self._stop("the cycles shrank to an equilibrium", point)
                 return
             earlier, neutral = neutral, neutral.still(new)
-            chord = self._chord(u, point, new_u, new)
-            located = locate(chord, count - 1, outside, neutral, earlier)
+            chord = _Cycles(self, equations, u, solution.u)
+            located = locate(chord.between(point, new), count - 1, outside, neutral, earlier)
             outside = outside_after(outside, located, new, neutral)
-            yield from located
+            for bifurcation in located:
+                yield replace(bifurcation, point=chord.observed(bifurcation.point))
             found += len(located)
-            jacobians = sum(not iteration.jacobian_reused for iteration in iterations[1:])
-            factor = 2 ** ((_IDEAL_JACOBIANS - jacobians) / 2)
-            step = min(step * min(max(factor, 0.5), 2.0), self._steps.longest)
-            new = replace(new, next_step=step)
+            step = min(step * _stretch(solution), self._steps.longest)
+            new = replace(self.observed(new, cycle), next_step=step)
             yield new
             if max_bifurcations is not None and found >= max_bifurcations:
                 self._stop(BIFURCATIONS_FOUND, new)
                 return
             point, count = new, count + 1
 
-    def _correct(
-        self, u: FloatArray, tangent: FloatArray, step: float
-    ) -> tuple[FloatArray, tuple[Iteration, ...]]:
-        equations = self._equations
+    def orbit_on(self, plane: ExtendedEquations, u: FloatArray) -> tuple[BranchPoint, LimitCycle]:
+        """The orbit on a plane from a guess, as a point without observables, and as a cycle."""
+        return self._point(self._corrected(plane, u), plane.direction)
+
+    def _ahead(
+        self, equations: ExtendedEquations, u: FloatArray, tangent: FloatArray, step: float
+    ) -> Solution:
+        """The solution at most a step ahead."""
         predicted = u + step * tangent
         low, high = (end / equations.unit for end in equations.parameter_range)
         if low < predicted[-1] < high:
-            plane = equations.on_plane(u, tangent, step)
-        else:
-            # Land on the end of the range: there the plane is that of the parameter.
-            end = low if predicted[-1] <= low else high
-            predicted = u + tangent * (end - u[-1]) / tangent[-1]
-            predicted[-1] = end
-            across = np.zeros(len(u))
-            across[-1] = 1.0
-            plane = equations.on_plane(predicted, across)
-        found, _, iterations = self._solve(plane, predicted)
-        return found, iterations
+            return self._corrected(equations.on_plane(u, tangent, step), predicted)
+        # Land on the end of the range: there the plane is that of the parameter.
+        end = low if predicted[-1] <= low else high
+        predicted = u + tangent * (end - u[-1]) / tangent[-1]
+        predicted[-1] = end
+        across = np.append(np.zeros(len(u) - 1), 1.0)
+        return self._corrected(equations.on_plane(predicted, across), predicted)
 
-    def _solve(
-        self, equations: ExtendedEquations, u: FloatArray
-    ) -> tuple[FloatArray, FloatArray, tuple[Iteration, ...]]:
-        return solve(
-            equations,
-            u,
-            damping="line-search",
-            tolerance=self._tolerance,
-            max_iterations=_CORRECTOR_ITERATIONS,
+    def _corrected(self, plane: ExtendedEquations, u: FloatArray) -> Solution:
+        return plane.corrected(u, self._tolerance, _CORRECTOR_ITERATIONS)
+
+    def _point(self, solution: Solution, direction: FloatArray) -> tuple[BranchPoint, LimitCycle]:
+        """The orbit of a solution; its tangent points along `direction`."""
+        equations, u = solution.equations, solution.u
+        plane = equations.on_plane(u, equations.carried(direction))
+        cycle, tangent = plane.cycle_and_tangent(solution)
+        point = BranchPoint(
+            parameter=equations.parameter(u),
+            period=cycle.period,
+            points=cycle.points,
+            residual=cycle.residual,
+            multipliers=cycle.multipliers,
+            multiplier_errors=cycle.multiplier_errors,
+            trivial_index=cycle.trivial_index,
+            stability=cycle.stability,
+            tangent=tangent,
+            next_step=self._steps.first,
+            method=cycle.method,
+            state_error=cycle.state_error,
         )
+        return point, cycle
+
+    def observed(self, point: BranchPoint, cycle: LimitCycle) -> BranchPoint:
+        """The point with its observables."""
+        values = {name: float(value(cycle)) for name, value in self._observables.items()}
+        return replace(point, observables=values)
 
     def _at_end(self, point: BranchPoint) -> bool:
         low, high = self._equations.parameter_range
@@ -196,53 +195,78 @@ class Tracer:
         self.stopped = BranchStopped(reason, point.parameter, detail)
 
     def _check_neighbours(
-        self, point: BranchPoint, u: FloatArray, new: BranchPoint, new_u: FloatArray
+        self,
+        equations: ExtendedEquations,
+        u: FloatArray,
+        tangent: FloatArray,
+        new_u: FloatArray,
+        new_tangent: FloatArray,
     ) -> None:
-        inner, chord = self._equations.inner, new_u - u
-        along = inner(chord, point.tangent)
-        across = chord - along * point.tangent
+        inner, chord = equations.inner, new_u - u
+        along = inner(chord, tangent)
+        across = chord - along * tangent
         if (
-            inner(new.tangent, point.tangent) < _LEAST_COSINE
+            inner(new_tangent, tangent) < _LEAST_COSINE
             or inner(across, across) > (_LARGEST_CORRECTION * along) ** 2
         ):
             raise _NotNeighboursError(
-                f"from parameter {point.parameter:.8g} to {new.parameter:.8g} the branch jumps or "
-                f"turns by more than the shortest step can follow."
+                f"from parameter {equations.parameter(u):.8g} to {equations.parameter(new_u):.8g} "
+                f"the branch jumps or turns by more than the shortest step can follow."
             )
 
-    def _reason(self, error: Exception, u: FloatArray, point: BranchPoint) -> StopReason:
+    def _reason(
+        self, error: Exception, equations: ExtendedEquations, u: FloatArray, tangent: FloatArray
+    ) -> StopReason:
         """Tell a model that ends here from a corrector that fails."""
+        if isinstance(error, NotSmoothError):
+            return "the orbits became too rough for collocation"
         if isinstance(error, StateError) or isinstance(error.__cause__, StateError):
             return "the branch left the domain of the model"
         try:
-            self._equations.residual(u + 4 * self._steps.shortest * point.tangent)
+            equations.residual(u + 4 * self._steps.shortest * tangent)
         except StateError:
             return "the branch left the domain of the model"
         return "the step became too small"
 
-    def _passed_equilibrium(self, before: BranchPoint, after: BranchPoint) -> bool:
-        # Beyond a Hopf point the same cycles come back with the opposite phase.
-        if before.trivial_index is None:
-            return False
-        velocities = []
-        for point in (before, after):
-            segments = self._equations.shooting(point.parameter).segments
-            velocities.append(segments.velocities(point.points, point.period) / segments.scale)
-        return bool(np.sum(velocities[0] * velocities[1]) < 0)
 
-    def _chord(
-        self, u: FloatArray, before: BranchPoint, next_u: FloatArray, after: BranchPoint
-    ) -> Chord:
+class _Cycles:
+    """The orbits on the chord between two solutions of the same equations."""
+
+    def __init__(
+        self, tracer: Tracer, equations: ExtendedEquations, u: FloatArray, next_u: FloatArray
+    ) -> None:
         chord = next_u - u
-        length = float(np.sqrt(self._equations.inner(chord, chord)))
-        direction = chord / length
+        self._length = float(np.sqrt(equations.inner(chord, chord)))
+        self._tracer, self._equations = tracer, equations
+        self._u, self._direction = u, chord / self._length
+        self._cycles: list[tuple[BranchPoint, LimitCycle]] = []
 
-        def orbit_at(distance: float) -> BranchPoint:
-            plane = self._equations.on_plane(u, direction, distance)
-            found, _, iterations = self._solve(plane, u + distance * direction)
-            return self.point_at(found, direction, iterations)
+    def between(self, before: BranchPoint, after: BranchPoint) -> Chord:
+        """The chord."""
+        return Chord(before, after, self._length, self._equations.unit, self._orbit_at)
 
-        return Chord(before, after, length, self._equations.unit, orbit_at)
+    def _orbit_at(self, distance: float) -> BranchPoint:
+        plane = self._equations.on_plane(self._u, self._direction, distance)
+        self._cycles.append(self._tracer.orbit_on(plane, self._u + distance * self._direction))
+        return self._cycles[-1][0]
+
+    def observed(self, point: BranchPoint) -> BranchPoint:
+        """One of the points found, with its observables."""
+        for seen, cycle in self._cycles:
+            if seen is point:
+                return self._tracer.observed(point, cycle)
+        return point
+
+
+def _stretch(solution: Solution) -> float:
+    """By what to lengthen the step after one that led to a solution."""
+    factor = 2.0 ** (-solution.equations.excess(solution.iterations) / 2)
+    return min(max(factor, 0.5), 2.0)
+
+
+def _turned_over(equations: ExtendedEquations, u: FloatArray, next_u: FloatArray) -> bool:
+    """Whether cycles passed through an equilibrium: the same ones come back in opposite phase."""
+    return bool(np.sum(equations.velocities(u) * equations.velocities(next_u)) < 0)
 
 
 def _known(

@@ -172,7 +172,7 @@ def solve_collocated(
     *,
     tolerance: float,
     accuracy: float,
-) -> tuple[FloatArray, Collocated]:
+) -> tuple[FloatArray, Collocated[CollocationEquations]]:
     """Parameters (k,) and orbit of a trimmed cycle, by Newton's method on as many nodes as needed.
 
     Args:
