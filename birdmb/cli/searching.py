@@ -228,11 +228,15 @@ def other_flights(
     if len(model.state_names) > _FEW_STATES or cycle.method != "collocation":
         return None
     progress.doing("looking for other flights")
+    from birdmb.models.rigid import RigidModel  # noqa: PLC0415 - not before the bird is sound
+
     times = model.bird.period * np.arange(FIRST_NODES) / FIRST_NODES
+    # A start of the rigid bird takes milliseconds.
+    count = None if isinstance(model, RigidModel) else _FEW_STARTS
     try:
         found = find_limit_cycles(
             model,
-            list(islice(model.starting_paths(times), _FEW_STARTS)),
+            list(islice(model.starting_paths(times), count)),
             known=[cycle],
             deflations=_FEW_DEFLATIONS,
             method="collocation",
