@@ -6,8 +6,9 @@ from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.gusts import CosineGust, GaussianGust, Gust, StepGust
 from birdmb.models.loads import Loads, TailLoads
-from birdmb.models.multibody import MultibodyModel, TetheredModel
+from birdmb.models.multibody import MultibodyModel
 from birdmb.models.rigid import RigidModel
+from birdmb.models.tethered import TetheredModel
 from birdmb.models.wing_model import WingModel
 
 __all__ = [
