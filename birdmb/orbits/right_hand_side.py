@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -11,13 +11,22 @@ import numpy as np
 
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
-from birdmb.orbits.problem import HasJacobian, HasRateJacobians, HasRates, HasRhs, Scalable
+from birdmb.orbits.problem import (
+    HasCoarser,
+    HasJacobian,
+    HasRateJacobians,
+    HasRates,
+    HasRhs,
+    Scalable,
+)
 
 _EPS = float(np.finfo(float).eps)
 # Where truncation and round-off of a central difference balance, in units of the state scale.
 _STEP = _EPS ** (1 / 3)
 # By how much a derivative must be off differences beyond what these are known to.
 _MARGIN = 10.0
+# Round-off is no more over twice the steps: the distance may happen to be small.
+_COARSER = 3.0
 # Of a derivative that a model gives, in units of machine precision times its largest entry.
 _ROUND_OFF = 10.0
 _CHECKING_STEPS = (1e-3, 3e-5, 1e-6)
@@ -121,7 +130,13 @@ class RightHandSide:
         """
         if self.has_derivative:
             size = np.abs(jacobians).max(axis=(1, 2), keepdims=True)
-            return np.broadcast_to(_ROUND_OFF * _EPS * size, jacobians.shape)
+            own = np.broadcast_to(_ROUND_OFF * _EPS * size, jacobians.shape)
+            if not isinstance(self.model, HasCoarser):
+                return own
+            # One that the model makes by differences: those over twice its steps tell.
+            coarser = replace(self, model=self.model.coarser())
+            apart = np.abs(coarser.jacobians(times, states) - jacobians)
+            return np.asarray(own + _COARSER * apart.max(axis=2, keepdims=True))
         direction = _direction(states)
         # A step grows fourfold in truncation when it doubles, so that what differences of the
         # single step are off by is a third of what is seen.
