@@ -1,12 +1,14 @@
 """What a load evaluation, an integration and a limit cycle cost: `python benchmarks/speed.py`.
 
-Best of several runs with compiled kernels. Times depend on the machine; ratios within a run and
-counts of evaluations do not, or hardly.
+Best of several runs with compiled kernels, limit cycles in processor time. Times depend on the
+machine; ratios within a run and counts of evaluations do not, or hardly.
 """
 
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 from rich.console import Console
@@ -31,6 +33,17 @@ def best(run: Callable[[], object], repeat: int = 5, inner: int = 1) -> float:
         for _ in range(inner):
             run()
         times.append((time.perf_counter() - start) / inner)
+    return min(times)
+
+
+def seconds(run: Callable[[], object], repeat: int) -> float:
+    """Shortest processor time of one run in s, after a first."""
+    run()
+    times = []
+    for _ in range(repeat):
+        start = time.process_time()
+        run()
+        times.append(time.process_time() - start)
     return min(times)
 
 
@@ -91,22 +104,42 @@ def integrations(bird: birdmb.Bird) -> tuple[float, float, int]:
     return best(lambda: model.flow(x0, 0.0, bird.period)), without, evaluations
 
 
-class CountedModel:
-    """Counts the flows, which are what a search for a limit cycle pays for."""
+def search(
+    kind: type[birdmb.RigidModel | birdmb.MultibodyModel],
+    bird: birdmb.Bird,
+    guess: birdmb.LimitCycle | None,
+    method: Literal["collocation", "shooting"],
+) -> birdmb.LimitCycle:
+    """The limit cycle of a bird, its model made anew."""
+    return birdmb.find_limit_cycle(kind(bird), guess, method=method)
 
-    def __init__(self, model: birdmb.RigidModel | birdmb.MultibodyModel) -> None:
-        self._model, self.flows = model, 0
 
-    def __getattr__(self, name: str) -> object:
-        found = getattr(self._model, name)
-        if name not in {"flow", "flow_jacobian"}:
-            return found
-
-        def counted(*arguments: object) -> object:
-            self.flows += 1
-            return found(*arguments)
-
-        return counted
+def cycles() -> Table:
+    """Limit cycles with multipliers from a cold guess by both methods, and from a neighbour."""
+    table = Table(
+        "limit cycle", "states", "collocation", "nodes", "shooting", "ratio", "from a neighbour"
+    )
+    for name, kind in (
+        ("ibis", birdmb.RigidModel),
+        ("ibis_compliant_shoulder", birdmb.MultibodyModel),
+        ("ibis_hinged_feathers", birdmb.MultibodyModel),
+    ):
+        bird = birdmb.load_bird(TOPOLOGIES / f"{name}.toml")
+        cycle = search(kind, bird, None, "collocation")
+        near = bird.with_values({"body.mass": 1.02 * bird.body.mass})
+        cold = seconds(partial(search, kind, bird, None, "collocation"), 5)
+        warm = seconds(partial(search, kind, near, cycle, "collocation"), 5)
+        shot = seconds(partial(search, kind, bird, None, "shooting"), 1)
+        table.add_row(
+            f"{name}, {'rigid' if kind is birdmb.RigidModel else 'multibody'}",
+            str(len(cycle.x0)),
+            f"{cold * 1e3:.0f} ms",
+            str(cycle.nodes),
+            f"{shot * 1e3:.0f} ms",
+            f"{shot / cold:.1f}",
+            f"{warm * 1e3:.0f} ms",
+        )
+    return table
 
 
 def main() -> None:
@@ -123,17 +156,10 @@ def main() -> None:
     many, single = right_hand_sides(compliant)
     table.add_row("multibody rates, many in a call", f"{many * 1e6:.0f} us", "each")
     table.add_row("multibody rates, one in a call", f"{single * 1e6:.0f} us", "")
-    for name, bird, kind in (
-        ("rigid cycle with multipliers", ibis, birdmb.RigidModel),
-        ("multibody cycle with multipliers, one compliant joint", compliant, birdmb.MultibodyModel),
-    ):
-        counted = CountedModel(kind(bird))
-        birdmb.find_limit_cycle(counted)
-        seconds = best(lambda bird=bird, kind=kind: birdmb.find_limit_cycle(kind(bird)), repeat=3)
-        table.add_row(name, f"{seconds * 1e3:.0f} ms", f"from a cold guess, {counted.flows} flows")
     table.add_row("a beat in Exudyn with loads", f"{loaded * 1e3:.1f} ms", f"{evaluations} calls")
     table.add_row("a beat in Exudyn without", f"{bare * 1e3:.1f} ms", f"ratio {loaded / bare:.2f}")
     console.print(table)
+    console.print(cycles())
 
     scaling = Table("elements a wing", "joints prescribed", "shoulder compliant")
     for n in (8, 16, 32, 64):

@@ -5,7 +5,7 @@ the signal raised would be swallowed, rewrapped or shown as a traceback, and com
 a handler waiting for seconds. So nothing is raised: the interpreter writes a byte to a socket when
 the signal arrives (`signal.set_wakeup_fd`), and a thread that waits for it ends the process.
 
-Imports nothing but the standard library, for it must be at work before all else is imported.
+Imports little but the standard library, for it must be at work before all else is imported.
 """
 
 import os
@@ -13,24 +13,40 @@ import signal
 import socket
 import sys
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from types import FrameType
 
+from birdmb._starting import starting_processes
+
 INTERRUPTED = 130
 INTERRUPTED_LINE = "Interrupted."
 
-_SECONDS_TO_RELEASE = 0.5
+_SECONDS_OF_PATIENCE = 1.0
+# A process of the interpreter's outlives this one, and removes the semaphores that it shared with
+# its workers. That this was needed is no news: an interruption never gives them back.
+_TRACKER_QUIET = "ignore:resource_tracker:UserWarning"
 _tidying: list[Callable[[], object]] = []
 _ending = threading.Event()
 
 
 @contextmanager
 def ending_the_process() -> Iterator[None]:
-    """End the process on Ctrl-C within; nothing is changed where Ctrl-C is ignored."""
-    if not callable(signal.getsignal(signal.SIGINT)):
-        yield
-        return
+    """End the process on Ctrl-C within; Ctrl-C that is ignored stays so."""
+    sys.warnoptions.append(_TRACKER_QUIET)  # what Python processes started from here are told
+    try:
+        if callable(signal.getsignal(signal.SIGINT)):
+            with _watched():
+                yield
+        else:
+            yield
+    finally:
+        sys.warnoptions.remove(_TRACKER_QUIET)
+
+
+@contextmanager
+def _watched() -> Iterator[None]:
     receiver, sender = socket.socketpair()
     sender.setblocking(False)
     # What arrives before the thread has started waits in the socket.
@@ -63,12 +79,15 @@ def tidied(tidy: Callable[[], object]) -> Iterator[None]:
 
 def _first_time(_signal: int, _frame: FrameType | None) -> None:
     """Leave it to the thread that waits for the signal."""
-    signal.signal(signal.SIGINT, _second_time)
+    patient_until = time.monotonic() + _SECONDS_OF_PATIENCE
 
+    def again(_signal: int, _frame: FrameType | None) -> None:
+        """Give up whatever keeps the first time from ending the process."""
+        # A key pressed twice is no reason to leave workers behind, which then complain.
+        if time.monotonic() > patient_until:
+            os._exit(INTERRUPTED)
 
-def _second_time(_signal: int, _frame: FrameType | None) -> None:
-    """Give up whatever keeps the first time from ending the process."""
-    os._exit(INTERRUPTED)
+    signal.signal(signal.SIGINT, again)
 
 
 def _end_on_signal(receiver: socket.socket) -> None:
@@ -78,31 +97,35 @@ def _end_on_signal(receiver: socket.socket) -> None:
     for tidy in reversed(_tidying):
         with suppress(Exception):
             tidy()
-    with suppress(OSError):
-        os.write(2, f"{INTERRUPTED_LINE}\n".encode())
+    terminal, nowhere = _standard_error(), os.open(os.devnull, os.O_WRONLY)
     # What the main thread makes of the end of its workers is no news.
-    nowhere = os.open(os.devnull, os.O_WRONLY)
     for stream in (1, 2):
         os.dup2(nowhere, stream)
     _end_workers()
+    if terminal is not None:
+        with suppress(OSError):
+            os.write(terminal, f"{INTERRUPTED_LINE}\n".encode())
     os._exit(INTERRUPTED)
 
 
+def _standard_error() -> int | None:
+    try:
+        return os.dup(2)
+    except OSError:
+        return None
+
+
 def _end_workers() -> None:
-    """Kill the processes that were started, and release what they shared."""
+    """Kill the processes that were started, and have none started any more."""
+    # Never given back. One in the middle of its start could not be killed, and would complain.
+    starting_processes.acquire()
     if "multiprocessing" not in sys.modules:
         return
     import multiprocessing  # noqa: PLC0415
-    from multiprocessing import util  # noqa: PLC0415
 
-    def kill() -> None:
-        with suppress(Exception):
-            for process in multiprocessing.active_children():
-                process.kill()
-
-    kill()
-    # What the interpreter does at its exit. Without it, shared semaphores are reported as leaked.
-    release = threading.Thread(target=util._exit_function, daemon=True)  # type: ignore[attr-defined]
-    release.start()
-    release.join(_SECONDS_TO_RELEASE)
-    kill()  # those that the main thread has started meanwhile
+    with suppress(Exception):
+        workers = multiprocessing.active_children()
+        for process in workers:
+            process.kill()
+        for process in workers:
+            process.join()

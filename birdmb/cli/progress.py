@@ -16,7 +16,8 @@ from birdmb._kernels import any_cached
 if TYPE_CHECKING:
     from birdmb.orbits.newton import Iteration
 
-_HEADING = f"{'iteration':>9}  {'closure error':>13}  {'step':>9}  {'damping':>9}"
+_HEADING = f"{'iteration':>9}  {'residual':>9}  {'step':>9}  {'damping':>9}"
+_NODES = f"  {'nodes':>5}"
 
 
 class Progress:
@@ -51,13 +52,13 @@ class Progress:
     def iteration(self, step: Iteration) -> None:
         """Write a line on an accepted step of the search."""
         if step.number == 0:
-            self.line(_HEADING, style="bold")
-            self.line(f"{0:>9}  {step.residual:>13.3e}  {'guess':>9}")
-        else:
-            self.line(
-                f"{step.number:>9}  {step.residual:>13.3e}  {step.step_length:>9.2e}  "
-                f"{step.damping:>9.3g}"
-            )
+            self.line(_HEADING + (_NODES if step.nodes else ""), style="bold")
+        took = f"{step.step_length:>9.2e}  {step.damping:>9.3g}"
+        # A larger number of nodes begins with the orbit of the one before.
+        if step.step_length == 0.0:
+            took = f"{'guess' if step.number == 0 else '':>9}  {'':>9}"
+        nodes = f"  {step.nodes:>5}" if step.nodes else ""
+        self.line(f"{step.number:>9}  {step.residual:>9.2e}  {took}{nodes}".rstrip())
         self.doing("searching")
 
 

@@ -57,7 +57,12 @@ def table_of(title: str, *columns: str, numbers: tuple[int, ...] = ()) -> Table:
 
 
 def _orbit(cycle: FlightCycle) -> Table:
-    title = f"Orbit at t = {cycle.start_time:g} s, closed to {cycle.residual:.1e}"
+    known = (
+        f"closed to {cycle.residual:.1e}"
+        if cycle.nodes is None
+        else f"known to {cycle.state_error:.1e} of typical sizes"
+    )
+    title = f"Orbit at t = {cycle.start_time:g} s, {known}"
     table = table_of(title, "state", "value", "unit", "in degrees", numbers=(1, 3))
     units = cast("HasStateUnits", cycle.model).state_units
     for name, value, unit in zip(cycle.state_names, cycle.x0, units, strict=True):

@@ -20,7 +20,7 @@ from birdmb.models.implicit import integrate_implicitly
 from birdmb.models.instants import Instant, Instants
 from birdmb.models.integration import Integration, Integrator, integration_for
 from birdmb.models.loads import LoadsAlong
-from birdmb.models.multibody_kernel import air_forces, body_velocity
+from birdmb.models.multibody_kernel import body_velocity, tree_forces
 from birdmb.models.partition import body_forces, partitioned
 from birdmb.models.rates_kernel import Motion
 from birdmb.models.rigid import RigidModel
@@ -30,6 +30,7 @@ from birdmb.models.tree_rates import TreeRates
 from birdmb.models.wing_model import BODY_SCALE, BODY_STATES, BODY_UNITS, WingModel
 from birdmb.topology import Bird
 from birdmb.wing.chain import joints_turning_the_whole
+from birdmb.wing.shape import WingShape
 from birdmb.wing.stacked import StackedShapes
 
 _JOINT_SCALE = (0.5, 10.0)  # rad, rad/s
@@ -77,6 +78,7 @@ class MultibodyModel(WingModel):
         self.state_units = BODY_UNITS[:free] + ("rad", "rad/s") * len(names)
         compliant = [joint.mode == "compliant" for joint in bird.joints]
         self._compliant = np.array(compliant + [True] * len(hinges), dtype=bool)
+        self._right_wing = slice(BODY_COORDINATES, BODY_COORDINATES + self._compliant.size)
         self._springs = springs_of(bird)
         self.turning = joints_turning_the_whole(self.wing)
         shaping = np.flatnonzero(self._compliant[self.turning :]) + self.turning
@@ -250,7 +252,7 @@ class MultibodyModel(WingModel):
         and damper where a joint is compliant.
         """
         _, forces = self._accelerations(times, states, loads)
-        right = forces[:, BODY_COORDINATES : BODY_COORDINATES + self._compliant.size]
+        right = forces[:, self._right_wing]
         return right + self._spring_torques_along(times, states)
 
     def _shapes_along(
@@ -344,30 +346,29 @@ class MultibodyModel(WingModel):
 
     def _forces(self, t: float, q: FloatArray, v: FloatArray) -> FloatArray:
         """Generalised forces (n,) of air, springs and dampers: Exudyn's user function."""
-        if not (np.isfinite(q).all() and np.isfinite(v).all()):
-            return np.full(q.size, np.nan)
-        joints = self._compliant.size
-        angles = q[BODY_COORDINATES : BODY_COORDINATES + joints]
-        rates = v[BODY_COORDINATES : BODY_COORDINATES + joints]
         instant = self.instant(t)
-        forward, down = self.air_velocity(t)
         with overflow_told(self.bird, f"the force of the air at t = {t:.4g} s"):
-            body, torques, clearance = air_forces(
+            forces, clearance = tree_forces(
                 self.wing,
-                instant.shape or self._instants.shape(t, angles, rates),
+                instant.shape or self._shape(t, q, v),
                 self.turning,
-                angles,
-                rates,
                 self.airframe,
-                q[2],
-                v[0] - forward,
-                v[1] - down,
-                v[2],
+                self._springs,
+                instant.angles,
+                instant.rates,
+                q,
+                v,
+                self.air_velocity(t),
             )
         if not clearance >= 0.0:
-            raise wing_misplaced(self.bird, t, angles, clearance)
-        torques += self._spring_torques(instant, angles, rates)
-        return np.concatenate([body, torques, torques])
+            raise wing_misplaced(self.bird, t, q[self._right_wing], clearance)
+        return np.asarray(forces)
+
+    def _shape(self, t: float, q: FloatArray, v: FloatArray) -> WingShape:
+        angles, rates = q[self._right_wing], v[self._right_wing]
+        if not (np.isfinite(angles).all() and np.isfinite(rates).all()):
+            angles, rates, _ = driven(self.wing, t)  # any will do: there are no forces
+        return self._instants.shape(t, angles, rates)
 
     def _spring_torques(self, driver: Instant, angles: FloatArray, rates: FloatArray) -> FloatArray:
         return spring_torques(self._springs, angles - driver.angles, rates - driver.rates)

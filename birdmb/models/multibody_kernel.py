@@ -9,9 +9,12 @@ from birdmb.aerodynamics.circulation import element_loads, resultant
 from birdmb.aerodynamics.elements import clearance, place_elements
 from birdmb.aerodynamics.joints import hinge_torques, joint_torques
 from birdmb.aerodynamics.tail import tail_influence
+from birdmb.models.springs import Springs, spring_torques
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.chain import frame_after, joint_chain
 from birdmb.wing.shape import WingShape, turned
+
+_BODY = 3  # coordinates of the body
 
 
 @kernel
@@ -68,3 +71,38 @@ def air_forces(
         induced[:, 0] = tail_influence(frame.tail, placed.node) @ loads.circulation
     total += airframe_loads(frame, induced, u, w, pitch_rate)[:, 0]
     return _body_forces(total, theta), torques, distance
+
+
+@kernel
+def tree_forces(
+    wing: WingArrays,
+    shape: WingShape,
+    turning: int,
+    frame: Airframe,
+    springs: Springs,
+    driver_angles: FloatArray,
+    driver_rates: FloatArray,
+    q: FloatArray,
+    v: FloatArray,
+    air: tuple[float, float],
+) -> tuple[FloatArray, float]:
+    """Generalised forces (n,) of air, springs and dampers on the tree, and the `clearance` (m).
+
+    At coordinates q and velocities v (n,) of the tree, angles and rates (A,) of the drivers, and
+    velocity `air` (m/s) of the air in the world, forward and down. NaN where q or v is not finite.
+    """
+    joints = driver_angles.size
+    forces = np.full(q.size, np.nan)
+    if not (np.isfinite(q).all() and np.isfinite(v).all()):
+        return forces, 0.0
+    right = slice(_BODY, _BODY + joints)
+    angles, rates = q[right], v[right]
+    vx, vz = v[0] - air[0], v[1] - air[1]
+    body, torques, distance = air_forces(
+        wing, shape, turning, angles, rates, frame, q[2], vx, vz, v[2]
+    )
+    torques += spring_torques(springs, angles - driver_angles, rates - driver_rates)
+    forces[:_BODY] = body
+    forces[right] = torques
+    forces[_BODY + joints :] = torques
+    return forces, distance

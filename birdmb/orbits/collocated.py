@@ -45,8 +45,9 @@ def linearise_collocated(
     the stages of the variational equation and the round-off of the eigenvalues. Where the
     derivatives along a smooth orbit are rougher than it is, as those of stiff joints are, they are
     taken at more instants of it, as long as that makes the bounds smaller and they are above ten
-    times the `accuracy` of the states. `derivative_gap` is by how much a derivative that the model
-    gives contradicts the differences that are taken instead.
+    times the `accuracy` of the states; what the error of the orbit makes is then added.
+    `derivative_gap` is by how much a derivative that the model gives contradicts the differences
+    that are taken instead.
 
     Returns:
         The fields of a `LimitCycle` but for its search, by name.
@@ -63,6 +64,10 @@ def linearise_collocated(
         if not _relative(finer.spectrum, better) < _FALLING * _relative(at.spectrum, errors):
             break
         at, finer, errors = finer, finest, better
+    if at.equations is not found.equations:
+        # Of one orbit at different instants, its own error does not show.
+        rough = _linearised(at.equations, _on(at.equations, found.equations, found.u))
+        errors = errors + _distances(at.spectrum.multipliers, rough.spectrum.multipliers)
     equations, spectrum = at.equations, at.spectrum
     points, period = equations.unpack(at.u)
     scale = equations.rhs.scale
@@ -108,9 +113,14 @@ def _linearised(equations: CollocationEquations, u: FloatArray) -> _Linearised:
 
 
 def _on_more(at: _Linearised) -> tuple[CollocationEquations, FloatArray]:
-    points, period = at.equations.unpack(at.u)
     equations = at.equations.with_nodes(more_nodes(at.equations.nodes))
-    return equations, equations.pack(resampled(points, equations.nodes), period)
+    return equations, _on(equations, at.equations, at.u)
+
+
+def _on(equations: CollocationEquations, given: CollocationEquations, u: FloatArray) -> FloatArray:
+    """Unknowns of other equations for the orbit that has unknowns `u` of those given."""
+    points, period = given.unpack(u)
+    return equations.pack(resampled(points, equations.nodes), period)
 
 
 def _errors(spectrum: Spectrum, finer: Spectrum) -> FloatArray:

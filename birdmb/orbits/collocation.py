@@ -18,7 +18,7 @@ from birdmb.orbits.right_hand_side import RightHandSide
 from birdmb.orbits.trigonometric import differentiation_matrix, resampled
 
 _EPS = float(np.finfo(float).eps)
-FIRST_NODES = 17
+FIRST_NODES = 25
 _GROWTH = 1.5
 # Harmonics that decay more slowly than this from one number of nodes to the next will not reach
 # the accuracy: 1.5 times the nodes take a smooth orbit's error down by far more.
@@ -212,7 +212,7 @@ def collocate(
     first: FloatArray | None = None
 
     def record(iteration: Iteration) -> None:
-        history.append(replace(iteration, number=len(history)))
+        history.append(replace(iteration, number=len(history), nodes=equations.nodes))
         if callback is not None:
             callback(history[-1])
 

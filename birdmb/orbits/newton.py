@@ -46,6 +46,7 @@ class Iteration:
         period: period in s.
         jacobian_reused: the step was made with the Jacobian of an earlier point, or a given one,
             updated by the steps since.
+        nodes: number of collocation nodes; `None` for shooting.
     """
 
     number: int
@@ -55,6 +56,7 @@ class Iteration:
     x: FloatArray
     period: float
     jacobian_reused: bool = False
+    nodes: int | None = None
 
 
 class Equations(Protocol):

@@ -19,7 +19,7 @@ from birdmb.orbits.trigonometric import between_nodes
 _STAGES, _FEWER_STAGES = 9, 7
 # Up to here nine stages are exact to a part in 1e12; beyond, an interval is divided.
 _LARGEST_STEP = 3.0
-_MOST_PARTS = 8
+_MOST_PARTS = 4
 
 
 def flow_jacobians(rate_jacobians: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -41,13 +41,24 @@ class PairedEdges(NamedTuple):
     converged: bool
 
 
+class Linearised(NamedTuple):
+    """The residual's derivative by the shifts, tridiagonal, and the pairs' by their own shift."""
+
+    lower: FloatArray  # (n,) m2
+    diagonal: FloatArray  # (n,)
+    upper: FloatArray  # (n,)
+    leading: FloatArray  # (n, 3) m
+    trailing: FloatArray  # (n, 3) m
+
+
 class SolvedLine(NamedTuple):
-    """The rounded edges at an instant and the shifts that make the chords orthogonal."""
+    """The rounded edges at an instant, the shifts that make the chords orthogonal, and slopes."""
 
     leading: RoundedPolyline
     trailing: RoundedPolyline
     station: FloatArray  # (n,) parameters of the stations
     shift: FloatArray  # (n,)
+    linear: Linearised
     converged: bool
 
 
@@ -118,7 +129,7 @@ def _obliqueness(A: Array, B: Array, steps: Array, ends: LineEnds) -> Array:
 
 
 @kernel
-def _newton_step(
+def _linearised(
     leading: RoundedPolyline,
     trailing: RoundedPolyline,
     s: FloatArray,
@@ -127,20 +138,19 @@ def _newton_step(
     B: FloatArray,
     steps: FloatArray,
     ends: LineEnds,
-    F: FloatArray,
-) -> FloatArray:
-    """Change of the shifts that makes the residual `F` vanish to first order."""
+) -> Linearised:
     n = s.size
-    dA = np.empty(3)
-    dB = np.empty(3)
+    dA = np.empty((n, 3))
+    dB = np.empty((n, 3))
     dP = np.empty((n, 3))
     dc = np.empty((n, 3))
     for j in range(n):
-        tangent(leading, s[j] - shift[j], dA)
-        tangent(trailing, s[j] + 3.0 * shift[j], dB)
+        tangent(leading, s[j] - shift[j], dA[j])
+        tangent(trailing, s[j] + 3.0 * shift[j], dB[j])
         for i in range(3):
-            dP[j, i] = 0.75 * (dB[i] - dA[i])
-            dc[j, i] = 3.0 * dB[i] + dA[i]
+            dP[j, i] = 0.75 * (dB[j, i] - dA[j, i])
+            dc[j, i] = 3.0 * dB[j, i] + dA[j, i]
+            dA[j, i], dB[j, i] = -dA[j, i], 3.0 * dB[j, i]
     lower = np.zeros(n)
     diagonal = np.ones(n)
     upper = np.zeros(n)
@@ -157,7 +167,13 @@ def _newton_step(
             if j < n - 1:
                 upper[j] += ahead * c * dP[j + 1, i]
             lower[j] += behind * c * dP[j - 1, i]
-    return _solve_tridiagonal(lower, diagonal, upper, -F)
+    return Linearised(lower, diagonal, upper, dA, dB)
+
+
+@kernel
+def _newton_step(linear: Linearised, F: FloatArray) -> FloatArray:
+    """Change of the shifts that makes the residual `F` vanish to first order."""
+    return _solve_tridiagonal(linear.lower, linear.diagonal, linear.upper, -F)
 
 
 @kernel
@@ -176,7 +192,8 @@ def _solve_shifts(
     steps = _steps(A, B, ends, last)
     F = _obliqueness(A, B, steps, ends)
     for _ in range(MAX_NEWTON_STEPS):
-        step = _newton_step(leading, trailing, s, shift, A, B, steps, ends, F)
+        linear = _linearised(leading, trailing, s, shift, A, B, steps, ends)
+        step = _newton_step(linear, F)
         before = np.sum(F * F)
         damping = 1.0
         while True:
@@ -212,7 +229,11 @@ def solved_line(
         if n < stations:
             shift, _ = _solve_shifts(leading, trailing, s, shift, COARSE_TOLERANCE)
     shift, converged = _solve_shifts(leading, trailing, s, shift, SHIFT_TOLERANCE)
-    return SolvedLine(leading, trailing, s, shift, converged)
+    last = s[-1] - s[-2]
+    ends = line_ends(leading, trailing, last)
+    A, B = _pair(leading, trailing, s, shift)
+    linear = _linearised(leading, trailing, s, shift, A, B, _steps(A, B, ends, last), ends)
+    return SolvedLine(leading, trailing, s, shift, linear, converged)
 
 
 @kernel
@@ -221,24 +242,22 @@ def moved_line(
 ) -> PairedEdges:
     """Pair the edges as `line` does, which was solved for their real parts.
 
-    The imaginary parts of the vertices are taken for infinitesimal rates (complex step): the last
-    Newton step is repeated with them, which by the implicit function theorem is exact.
+    The imaginary parts of the vertices are taken for infinitesimal rates (complex step): a Newton
+    step is made with them, which by the implicit function theorem is exact.
     """
-    leading, trailing, s, shift, converged = line
-    A, B = _pair(leading, trailing, s, shift)
+    s, linear = line.station, line.linear
     moving_leading = rounded_polyline(leading_edge, rounding)
     moving_trailing = rounded_polyline(trailing_edge, rounding)
-    moving_shift = shift.astype(np.complex128)
-    moving_A, moving_B = _pair(moving_leading, moving_trailing, s, moving_shift)
+    A, B = _pair(moving_leading, moving_trailing, s, line.shift.astype(np.complex128))
     last = s[-1] - s[-2]
-    moving_ends = line_ends(moving_leading, moving_trailing, last)
-    moving_steps = _steps(moving_A, moving_B, moving_ends, last)
-    rate = _obliqueness(moving_A, moving_B, moving_steps, moving_ends).imag.copy()
-    ends = line_ends(leading, trailing, last)
-    steps = _steps(A, B, ends, last)
-    moving_shift += 1j * _newton_step(leading, trailing, s, shift, A, B, steps, ends, rate)
-    moving_A, moving_B = _pair(moving_leading, moving_trailing, s, moving_shift)
-    return PairedEdges(moving_A, moving_B, converged)
+    ends = line_ends(moving_leading, moving_trailing, last)
+    rate = _obliqueness(A, B, _steps(A, B, ends, last), ends).imag.copy()
+    shift_rate = _newton_step(linear, rate)
+    for j in range(s.size):
+        for i in range(3):
+            A[j, i] += 1j * linear.leading[j, i] * shift_rate[j]
+            B[j, i] += 1j * linear.trailing[j, i] * shift_rate[j]
+    return PairedEdges(A, B, line.converged)
 
 
 @kernel

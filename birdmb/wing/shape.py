@@ -94,7 +94,8 @@ def wing_shape(
     """
     try:
         hinges = np.arange(wing.segment.size, wing.offset.size)
-        return shape_of_edges(wing, angles, rates, elements, rounding, published, hinges)[0]
+        scheme = published or None
+        return shape_of_edges(wing, angles, rates, elements, rounding, scheme, hinges)[0]
     except ZeroDivisionError:  # a leg or a chord without length
         return _no_shape(wing, elements)
 
@@ -106,22 +107,23 @@ def shape_of_edges(
     rates: FloatArray,
     elements: int,
     rounding: float,
-    published: bool,
+    published: bool | None,
     singly: IntArray,
 ) -> tuple[WingShape, FloatArray]:
     """As `wing_shape`, and velocities (M, N, 3) m per rate of each of the angles `singly` (M,).
 
     These end with the hinges'. Raises `ZeroDivisionError` where an edge or a chord has no length.
+    Of `published`, `None` is false: numba then does not compile what only the other line needs.
     """
     moving = angles + 1j * COMPLEX_STEP * rates
-    if published:
+    if published is not None:
         pairs, leading, guide, per_rate = one_step_wing(wing, moving, 2 * elements, singly)
     else:
         pairs, leading, guide, per_rate = orthogonal_wing(
             wing, moving, 2 * elements, rounding, singly
         )
     per_hinge = per_rate[singly.size - (wing.offset.size - wing.segment.size) :].copy()
-    shape = _assemble(pairs, guide, leading, per_hinge, rounding, published)
+    shape = _assemble(pairs, guide, leading, per_hinge, rounding, published is not None)
     forward = skeleton(wing, moving).rotation[HUMERUS, :, 0].real
     # Written so that what is not finite does not pass.
     sound = bool(np.isfinite(shape.line).all() and np.isfinite(shape.velocity).all())

@@ -45,7 +45,7 @@ def wing_shapes(
     moving = np.array([*singly, *hinges], dtype=np.int64)
     how = elements, rounding, published
     try:
-        return _made(wing, angles, rates, *how, moving)
+        return _made(wing, angles, rates, elements, rounding, published or None, moving)
     except ZeroDivisionError:  # of one at least: the others have their shapes nevertheless
         return _made_singly(wing, angles, rates, how, moving)
 
@@ -89,7 +89,7 @@ def _made(
     rates: FloatArray,
     elements: int,
     rounding: float,
-    published: bool,
+    published: bool | None,
     moving: IntArray,
 ) -> StackedShapes:
     count, hinges = angles.shape[0], wing.offset.size - wing.segment.size

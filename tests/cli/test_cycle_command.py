@@ -108,7 +108,7 @@ def test_stiff_hinges_are_integrated_implicitly_and_it_is_said(run):
 
 def test_options_reach_model_and_search(run):
     values = ("--set", "wing.discretisation=6", "--set", "body.mass=1.3")
-    options = ("--segments", "2", "--method", "levenberg-marquardt", "--tolerance", "1e-7")
+    options = ("--segments", "2", "--damping", "levenberg-marquardt", "--tolerance", "1e-7")
     result = run(
         "cycle", IBIS, "--model", "rigid", *values, *options, "--steps-per-beat", "60", "--json"
     )
@@ -118,7 +118,7 @@ def test_options_reach_model_and_search(run):
     cycle = find_limit_cycle(
         RigidModel(bird, steps_per_beat=60),
         segments=2,
-        method="levenberg-marquardt",
+        damping="levenberg-marquardt",
         tolerance=1e-7,
     )
     assert found["x0"] == pytest.approx(dict(zip(cycle.state_names, cycle.x0, strict=True)))

@@ -6,12 +6,13 @@ import signal
 import subprocess
 import sys
 import threading
+from pathlib import Path
 
 import pytest
 
 from birdmb.cli import interrupt
 
-from .conftest import IBIS, TOPOLOGIES
+from .conftest import HANGS, IBIS, TOPOLOGIES
 
 # A shell that runs tests in the background has them ignore Ctrl-C.
 SCRIPT = (
@@ -45,6 +46,87 @@ def test_ctrl_c_at_a_random_moment(tmp_path, command):
     assert errors.splitlines()[-1] == "Interrupted."
     assert "Traceback" not in errors
     assert "leaked" not in errors
+
+
+HALF_DONE = """
+import os, signal, sys, time
+from multiprocessing import process, resource_tracker, synchronize, util
+from birdmb.cli.interrupt import ending_the_process
+from birdmb.studies.sweeps.workers import process_pool
+
+signal.signal(signal.SIGINT, signal.default_int_handler)
+process.current_process()._config["semprefix"] = sys.argv[2]
+
+
+keys = [signal.SIGINT]
+
+
+def interrupt():
+    if keys:
+        os.kill(os.getpid(), keys.pop())
+    time.sleep(0.2)
+
+
+def unregistered(*name):
+    interrupt()
+    register(*name)
+
+
+def never_unregistered(name):
+    interrupt()
+
+
+def without_its_data(path, arguments, *files):
+    started = spawn(path, arguments, *files)
+    if "spawn_main" in str(arguments):
+        interrupt()
+    return started
+
+
+register, spawn = resource_tracker.register, util.spawnv_passfds
+if sys.argv[1] == "semaphore half made":
+    resource_tracker.register = unregistered
+elif sys.argv[1] == "semaphore half given back":
+    synchronize.SemLock._cleanup = never_unregistered
+else:
+    util.spawnv_passfds = without_its_data
+with ending_the_process():
+    with process_pool(1, None, None):
+        pass
+    time.sleep(60)
+"""
+
+
+@pytest.mark.skipif(not Path("/dev/shm").is_dir(), reason="looks for semaphores in /dev/shm")
+@pytest.mark.parametrize(
+    "when", ["semaphore half made", "semaphore half given back", "worker half made"]
+)
+def test_ctrl_c_when_workers_or_what_they_share_are_half_made(tmp_path, when):
+    prefix = f"/{tmp_path.name}-{os.getpid()}"
+    ended = subprocess.run(
+        [sys.executable, "-c", HALF_DONE, when, prefix],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=HANGS,
+    )
+    # Standard error ends with the last of the processes that have it.
+    assert (ended.returncode, ended.stdout, ended.stderr) == (130, "", "Interrupted.\n")
+    assert not list(Path("/dev/shm").glob(f"sem.{prefix[1:]}*"))
+
+
+def test_ctrl_c_pressed_twice_at_once_is_one_and_later_on_ends_what_hangs(monkeypatch):
+    now, ended = [10.0], []
+    monkeypatch.setattr(interrupt.time, "monotonic", lambda: now[0])
+    monkeypatch.setattr(interrupt.os, "_exit", ended.append)
+    before = signal.signal(signal.SIGINT, interrupt._first_time)
+    try:
+        for now[0] in (10.0, 10.5, 11.5):
+            assert ended == []
+            signal.raise_signal(signal.SIGINT)
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert ended == [130]
 
 
 def test_what_is_left_is_tidied_also_where_ctrl_c_is_an_exception():

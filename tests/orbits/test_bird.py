@@ -1,4 +1,4 @@
-"""What holds for any system holds for the bird."""
+"""What holds for shooting with any system holds for the bird."""
 
 import numpy as np
 import pytest
@@ -38,12 +38,12 @@ def compliant(ibis_compliant):
 
 @pytest.fixture(scope="module")
 def rigid_orbit(rigid):
-    return find_limit_cycle(rigid)
+    return find_limit_cycle(rigid, method="shooting")
 
 
 @pytest.fixture(scope="module")
 def compliant_orbit(compliant):
-    return find_limit_cycle(compliant)
+    return find_limit_cycle(compliant, method="shooting")
 
 
 def rotated(orbit, steps):
@@ -69,7 +69,7 @@ def test_nor_do_those_of_the_compliant_bird(compliant, compliant_orbit, segments
 @pytest.mark.parametrize("steps", [15, 38])
 def test_multipliers_do_not_depend_on_the_starting_phase(rigid, rigid_orbit, steps):
     state, time = rotated(rigid_orbit, steps)
-    later = find_limit_cycle(rigid, start_time=time)
+    later = find_limit_cycle(rigid, start_time=time, method="shooting")
     assert later.x0 == pytest.approx(state, abs=1e-8)
     assert later.multipliers == pytest.approx(rigid_orbit.multipliers, abs=1e-8)
 
@@ -134,7 +134,7 @@ def monodromy_of_high_order(model, x0, step=1e-3):
 
 
 def test_error_bounds_cover_what_differences_leave(compliant):
-    orbit = find_limit_cycle(compliant, tolerance=1e-12)
+    orbit = find_limit_cycle(compliant, tolerance=1e-12, method="shooting")
     exact = np.linalg.eigvals(monodromy_of_high_order(compliant, orbit.x0))
     exact = exact[np.lexsort((-exact.imag, -np.abs(exact)))]
     errors = np.abs(orbit.multipliers - exact)

@@ -120,6 +120,24 @@ def test_roessler(c):
     assert found.liouville_defect() < 1e-6
 
 
+def test_roessler_s_unstable_cycles():
+    """Of period one beside the chaos at c = 10, where shooting from the same guess finds none."""
+    found = collocated(roessler(4.5), [0.0, -6.0, 0.05], period_guess=5.9)
+    shot = find_limit_cycle(roessler(4.5), [0.0, -6.0, 0.05], period_guess=5.9, segments=6)
+    assert found.period == pytest.approx(shot.period, abs=1e-8)
+    apart = np.abs(found.multipliers - shot.multipliers)
+    assert (apart < found.multiplier_errors + shot.multiplier_errors).all()
+    wild = collocated(roessler(10), [0.0, -9.0, 0.02], period_guess=5.9)
+    times = wild.period * np.arange(6) / 6
+    again = find_limit_cycle(
+        roessler(10), wild.trajectory(times).states, period_guess=wild.period, segments=6
+    )
+    assert wild.period == pytest.approx(again.period, abs=1e-7)
+    apart = np.abs(wild.multipliers - again.multipliers)
+    assert (apart < wild.multiplier_errors + again.multiplier_errors).all()
+    assert wild.stability == "unstable"
+
+
 def duffing(omega):
     return OdeModel(
         lambda t, x: [x[1], -0.1 * x[1] - x[0] - x[0] ** 3 + 0.3 * np.cos(omega * t)],
@@ -160,15 +178,15 @@ def test_more_nodes_bring_the_error_down_exponentially():
 def test_rates_that_are_rougher_than_the_orbit_get_more_instants():
     # x = cos t for any damping; a damping with a sharp peak is seen by the multiplier alone
     def damping(t):
-        return 0.02 + 4 * np.exp(20 * (np.cos(t) - 1))
+        return 0.02 + 12 * np.exp(200 * (np.cos(t) - 1))
 
     def rhs(t, x):
         return [-np.sin(t) - damping(t) * (x[0] - np.cos(t))]
 
     found = collocated(OdeModel(rhs, ("x",), period=2 * np.pi), [1.0])
     # the mean of exp(k cos t) is the Bessel function I0(k)
-    mean = 0.02 + 4 * float(scipy.special.ive(0, 20))
-    assert len(found.points) > found.nodes == 17
+    mean = 0.02 + 12 * float(scipy.special.ive(0, 200))
+    assert len(found.points) > found.nodes == 25
     assert found.x0 == pytest.approx([1.0], abs=1e-12)
     error = abs(found.multipliers[0] - np.exp(-2 * np.pi * mean))
     assert error < found.multiplier_errors[0] < 1e-6

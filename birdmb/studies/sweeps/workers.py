@@ -10,9 +10,9 @@ from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import contextmanager, suppress
 from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnContext, SpawnProcess
-from multiprocessing.process import BaseProcess
 from typing import Any
 
+from birdmb._starting import starting_processes
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.sweeps.point import prepare
 from birdmb.topology import Bird
@@ -28,21 +28,22 @@ def process_pool(workers: int | None, bird: Bird, model: ModelFactory | None) ->
     context = _Spawning()
     # Nothing is ever sent: that the parent's end is closed, by it or by its death, is the message.
     lifeline, held = context.Pipe(duplex=False)
-    pool = ProcessPoolExecutor(
-        workers or os.cpu_count(),
-        mp_context=context,
-        initializer=_start,
-        initargs=(lifeline, bird, model),
-    )
+    with starting_processes:
+        pool = ProcessPoolExecutor(
+            workers or os.cpu_count(),
+            mp_context=context,
+            initializer=_start,
+            initargs=(lifeline, bird, model),
+        )
     try:
-        with _interrupts_kept_back():
-            for _ in range(workers or os.cpu_count() or 1):
-                pool.submit(int)  # the pool starts a process for each task that finds none idle
+        for _ in range(workers or os.cpu_count() or 1):
+            pool.submit(int)  # the pool starts a process for each task that finds none idle
         yield pool
     except BaseException:
         # One that is still importing does not watch its lifeline yet.
-        for process in context.started:
-            process.kill()
+        for process in context.made:
+            if process.pid is not None:
+                process.kill()
         raise
     finally:
         pool.shutdown(cancel_futures=True)
@@ -51,17 +52,26 @@ def process_pool(workers: int | None, bird: Bird, model: ModelFactory | None) ->
 
 
 class _Spawning(SpawnContext):
-    """Spawns processes, and keeps them in `started`."""
+    """Spawns processes, and keeps them in `made`."""
 
     def __init__(self) -> None:
         super().__init__()
-        self.started: list[BaseProcess] = []
+        self.made: list[SpawnProcess] = []
 
     def Process(self, *args: Any, **options: Any) -> SpawnProcess:  # type: ignore[override]  # noqa: N802
         """Make a process, as the pool does."""
-        made = SpawnProcess(*args, **options)
-        self.started.append(made)
+        made = _Worker(*args, **options)
+        self.made.append(made)
         return made
+
+
+class _Worker(SpawnProcess):
+    """Starts as a whole or not at all, and without Ctrl-C."""
+
+    def start(self) -> None:
+        """Start, as the pool does."""
+        with starting_processes, _interrupts_kept_back():
+            super().start()
 
 
 @contextmanager
