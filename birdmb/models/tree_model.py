@@ -243,7 +243,7 @@ class TreeModel(WingModel):
         and damper where a joint is compliant.
         """
         _, forces = self._accelerations(times, states, loads)
-        right = forces[:, BODY_COORDINATES : BODY_COORDINATES + self._compliant.size]
+        right = forces[:, self._right_wing]
         return right + self._spring_torques_along(times, states)
 
     def _shapes_along(

@@ -116,7 +116,8 @@ def shot_near(
 
 def path_for_search(cycle: LimitCycle) -> FloatArray:
     """States (K, n) of a collocated cycle at as many nodes as a search from it begins with."""
-    return path_at_nodes(cycle, max(FIRST_NODES, nodes_shown(cycle)))
+    begun = max(FIRST_NODES, nodes_shown(cycle))
+    return path_at_nodes(cycle, min(cycle.nodes or begun, begun))
 
 
 def path_at_nodes(cycle: LimitCycle, nodes: int) -> FloatArray:

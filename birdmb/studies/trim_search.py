@@ -15,7 +15,6 @@ from birdmb.errors import OrbitError, StateError
 from birdmb.models import FlightCycle, WingModel
 from birdmb.models.wing_model import BODY_STATES
 from birdmb.orbits import FloquetResult, NotSmoothError
-from birdmb.orbits.collocation import FIRST_NODES
 from birdmb.orbits.collocation_search import collocated_cycle, guessed_path, nodes_shown
 from birdmb.orbits.problem import HasGuessedPath, HasInitialGuess, HasRates
 from birdmb.orbits.search import ACCURACY, TOLERANCE
@@ -27,6 +26,8 @@ from birdmb.topology import Bird
 _STEEP = np.radians(30.0)
 _LIFT_COEFFICIENT = 0.6
 _SLOWEST = 1.0  # m/s
+# Fewer than of a search for a cycle: each step makes the wing anew at every node.
+_FIRST_NODES = 17
 
 
 class Trimmed(Exception):  # noqa: N818 - it reports success
@@ -134,7 +135,7 @@ class TrimSearch:
     def _collocated(
         self, point: FloatArray, guess: npt.ArrayLike | FloquetResult | None
     ) -> tuple[FloatArray, FlightCycle]:
-        nodes = max(FIRST_NODES, nodes_shown(guess))
+        nodes = max(_FIRST_NODES, nodes_shown(guess))
         model = self._model_at(point)
         if guess is None:
             path = self._forward_path(nodes)
