@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
+from birdmb._typing import FloatArray
 from birdmb.cli.outcome import SearchFailed
 from birdmb.cli.results import finite
 from birdmb.errors import OrbitError, StateError
@@ -36,7 +37,6 @@ if TYPE_CHECKING:
 # What another search costs grows with the states; with no more than these, a fraction of a second.
 _FEW_STATES = 6
 _FEW_STARTS = 5
-_FEW_DEFLATIONS = 2
 _ITERATIONS_PER_START = 25
 _ACCURACY = 1e-7  # as `find_limit_cycle` has it
 TRIM = (
@@ -228,20 +228,31 @@ def other_flights(
     if len(model.state_names) > _FEW_STATES or cycle.method != "collocation":
         return None
     progress.doing("looking for other flights")
-    from birdmb.models.rigid import RigidModel  # noqa: PLC0415 - not before the bird is sound
-
-    times = model.bird.period * np.arange(FIRST_NODES) / FIRST_NODES
-    # A start of the rigid bird takes milliseconds.
-    count = None if isinstance(model, RigidModel) else _FEW_STARTS
     try:
         found = find_limit_cycles(
-            model,
-            list(islice(model.starting_paths(times), count)),
-            known=[cycle],
-            deflations=_FEW_DEFLATIONS,
-            method="collocation",
+            model, _starts_of_others(model), known=[cycle], deflations=0, method="collocation"
         )
     except (OrbitError, StateError):
         return None
     flights = cast("list[FlightCycle]", found)
     return [flight for flight in flights if flight.why_no_flight is None]
+
+
+def _starts_of_others(model: RigidModel | MultibodyModel) -> list[FloatArray] | None:
+    """Starts for a short look: all of the rigid bird's, which take milliseconds each.
+
+    Of the multibody bird those along forward flights, without the guess, which has been tried.
+    """
+    from birdmb.models.rigid import RigidModel  # noqa: PLC0415 - not before the bird is sound
+
+    if isinstance(model, RigidModel):
+        return None
+    times = model.bird.period * np.arange(FIRST_NODES) / FIRST_NODES
+    first = islice(model.starting_paths(times), 1, _FEW_STARTS)
+    paths = [path for path in first if _forwards(path)]
+    return paths or [model.guess_along(times)]
+
+
+def _forwards(path: FloatArray) -> bool:
+    u, _, _, theta = path[:, :4].mean(axis=0)
+    return bool(u > 0.0 and np.cos(theta) > 0.0)

@@ -14,7 +14,7 @@ from birdmb.orbits.collocation_search import guessed_path
 from birdmb.orbits.cycle import LimitCycle
 from birdmb.orbits.deflation import Deflated, Known, apart
 from birdmb.orbits.errors import ArgumentError
-from birdmb.orbits.newton import Equations, solve
+from birdmb.orbits.newton import Equations, Iteration, solve
 from birdmb.orbits.periodicity import require_period, turns
 from birdmb.orbits.problem import Model
 from birdmb.orbits.right_hand_side import RightHandSide
@@ -29,6 +29,25 @@ _SAME = 1e-4
 # A start whose path needs more than the first nodes gets them only while nothing is found.
 _SECOND_CHANCES = 8
 _OTHER_SIZES = (0.5, 2.0, 4.0)
+# So many steps in a row cut so short lead into a local minimum of the residual: another start
+# promises more.
+_SHORT, _SHORT_STEPS = 0.1, 3
+
+
+class _StalledError(OrbitError):
+    """The search from one start is given up."""
+
+
+class _Stalling:
+    """Callback of a search from one start that gives it up where it stalls."""
+
+    def __init__(self) -> None:
+        self._short = 0
+
+    def __call__(self, iteration: Iteration) -> None:
+        self._short = self._short + 1 if iteration.damping < _SHORT else 0
+        if self._short >= _SHORT_STEPS:
+            raise _StalledError
 
 
 @dataclass(frozen=True)
@@ -153,6 +172,7 @@ class CoarseSearch:
                 damping="line-search",
                 tolerance=max(_TOLERANCE, self._equations.round_off(u)),
                 max_iterations=self._max_iterations,
+                callback=_Stalling(),
             )
         except ArgumentError:
             raise
