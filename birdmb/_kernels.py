@@ -36,6 +36,7 @@ from numba.misc.appdirs import AppDirs
 KernelT = TypeVar("KernelT", bound=Callable[..., Any])
 
 _SUFFIX = ".kernel"
+_LEVEL = 1
 _PACKAGE = Path(__file__).parent
 config: Any = numba_config  # sets its attributes when it is imported
 _DIGEST = hashlib.sha256
@@ -50,7 +51,31 @@ def kernel(function: KernelT) -> KernelT:
     """A function compiled by numba at its first call, and kept for later processes."""
     dispatcher = njit(function)
     dispatcher._cache = _KernelCache(function)  # what `njit(cache=True)` sets
+    dispatcher._compiler = _LightCompiler(dispatcher._compiler)
     return dispatcher
+
+
+class _LightCompiler:
+    """Numba's compiler of a function, with LLVM's optimisation turned down while it works.
+
+    Kernels call kernels, and each is optimised again with all that it calls: at numba's own level
+    that takes half as long again, and makes nothing faster.
+    """
+
+    def __init__(self, compiler: Any) -> None:
+        self._compiler = compiler
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._compiler, name)
+
+    def compile(self, *arguments: Any) -> Any:
+        """Result of numba's own method."""
+        level = config.OPT
+        config.OPT = type(level)(min(_LEVEL, level))
+        try:
+            return self._compiler.compile(*arguments)
+        finally:
+            config.OPT = level
 
 
 def cache_folders() -> list[Path]:
@@ -123,7 +148,7 @@ class _KernelCache(NullCache):
 
     def _key(self, sig: object, codegen: Any) -> str:
         """All that the machine code of a signature depends on, besides the source."""
-        options = (config.USING_SVML, config.OPT, config.BOUNDSCHECK)
+        options = (config.USING_SVML, min(_LEVEL, config.OPT), config.BOUNDSCHECK)
         return repr((_described(sig), codegen.magic_tuple(), options))
 
     def _file_name(self, key: str) -> str:
