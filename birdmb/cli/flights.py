@@ -17,7 +17,7 @@ from birdmb.cli.outcome import NO_CYCLE, ResultUnwrittenError, SearchFailed
 from birdmb.cli.progress import Progress
 from birdmb.cli.report import table_of
 from birdmb.cli.results import result_object, taken_as_prescribed
-from birdmb.cli.searching import TRIM, model_of, number_of, told
+from birdmb.cli.searching import TRIM, deflations_for, model_of, number_of, told
 from birdmb.cli.streams import only_results_on_stdout
 from birdmb.errors import OutputError
 from birdmb.files import remove_drafts
@@ -84,7 +84,8 @@ def _found(bird: Bird, model_name: str, progress: Progress) -> list[FlightCycle]
             "are not used."
         )
     progress.doing("laying out the starts")
-    cycles = cast("list[FlightCycle]", find_limit_cycles(model, callback=told(progress)))
+    found = find_limit_cycles(model, deflations=deflations_for(model), callback=told(progress))
+    cycles = cast("list[FlightCycle]", found)
     if not cycles:
         raise SearchFailed(
             f"{bird.name}: no limit cycle from any of the starts over speed, incidence and path "

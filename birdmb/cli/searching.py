@@ -20,7 +20,7 @@ from birdmb.orbits import (
     find_limit_cycle,
     find_limit_cycles,
 )
-from birdmb.orbits.collocation import FIRST_NODES
+from birdmb.orbits.coarse import COARSE_NODES
 from birdmb.orbits.collocation_search import search_by_collocation
 from birdmb.orbits.search import most_nodes
 
@@ -80,6 +80,11 @@ def model_of(bird: Bird, name: str, steps_per_beat: int | None) -> RigidModel | 
     from birdmb.models.multibody import MultibodyModel  # noqa: PLC0415
 
     return MultibodyModel(bird, steps_per_beat=steps_per_beat)
+
+
+def deflations_for(model: RigidModel | MultibodyModel) -> int:
+    """How many deflated searches to make: fewer of a bird of which each takes a quarter second."""
+    return 12 if len(model.state_names) <= _FEW_STATES else 4
 
 
 def told(progress: Progress) -> Any:
@@ -199,6 +204,7 @@ def _all(
     found = find_limit_cycles(
         model,
         max_iterations=min(search.max_iterations, _ITERATIONS_PER_START),
+        deflations=deflations_for(model),
         callback=told(progress),
     )
     return cast("list[FlightCycle]", found)
@@ -247,7 +253,7 @@ def _starts_of_others(model: RigidModel | MultibodyModel) -> list[FloatArray] | 
 
     if isinstance(model, RigidModel):
         return None
-    times = model.bird.period * np.arange(FIRST_NODES) / FIRST_NODES
+    times = model.bird.period * np.arange(COARSE_NODES) / COARSE_NODES
     first = islice(model.starting_paths(times), 1, _FEW_STARTS)
     paths = [path for path in first if _forwards(path)]
     return paths or [model.guess_along(times)]

@@ -9,7 +9,7 @@ import numpy as np
 
 from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError, StateError
-from birdmb.orbits.collocation import FIRST_NODES, CollocationEquations, more_nodes
+from birdmb.orbits.collocation import CollocationEquations, more_nodes
 from birdmb.orbits.collocation_search import guessed_path
 from birdmb.orbits.cycle import LimitCycle
 from birdmb.orbits.deflation import Deflated, Known, apart
@@ -23,6 +23,8 @@ from birdmb.orbits.scales import declared_scale, sizes_along
 from birdmb.orbits.shooting_search import SMALLEST_AMPLITUDE
 from birdmb.orbits.trigonometric import interpolated, resampled
 
+# Fewer than a single search begins with: enough to tell orbits apart, and starts are many.
+COARSE_NODES = 17
 # Solutions of the same coarse equations, so well solved, differ by far less if they are the same.
 _TOLERANCE = 1e-8
 _SAME = 1e-4
@@ -88,7 +90,7 @@ class CoarseSearch:
     @property
     def times(self) -> FloatArray:
         """Times (N,) of the nodes in s."""
-        return self._start + self._period * np.arange(FIRST_NODES) / FIRST_NODES
+        return self._start + self._period * np.arange(COARSE_NODES) / COARSE_NODES
 
     def run(
         self,
@@ -129,7 +131,7 @@ class CoarseSearch:
         starts, first_error = [], None
         for guess, period in zip(guesses, periods, strict=True):
             try:
-                path = guessed_path(self._model, guess, self._start, period, FIRST_NODES)  # type: ignore[arg-type]
+                path = guessed_path(self._model, guess, self._start, period, COARSE_NODES)  # type: ignore[arg-type]
                 starts.append((path, period))
             except StateError as error:
                 first_error = first_error or error
@@ -145,12 +147,12 @@ class CoarseSearch:
         path, period = starts[0]
         require_period(model, path[0], declared, start, period)
         equations = CollocationEquations(
-            RightHandSide(model, declared), start, self._period, self._autonomous, FIRST_NODES
+            RightHandSide(model, declared), start, self._period, self._autonomous, COARSE_NODES
         )
         contradicted = equations.derivative_gap(equations.pack(path / declared, period)) > 0
         self._equations = equations.by_differences() if contradicted else equations
         self._repeats = state_repeats(model, declared)
-        nodes = np.arange(FIRST_NODES) / FIRST_NODES
+        nodes = np.arange(COARSE_NODES) / COARSE_NODES
         for cycle in self._given:
             period = cycle.minimal_period if self._autonomous else cycle.period
             points = cycle.trajectory(start + period * nodes).states / declared
