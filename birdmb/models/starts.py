@@ -20,7 +20,7 @@ _LIFT_COEFFICIENT = 0.5
 SPEEDS = (1.0, 1.5, 0.7, 2.2, 0.4)
 INCIDENCES = (5.0, 15.0, -5.0)
 PATH_ANGLES = (0.0, -20.0, 20.0, -60.0, 60.0)
-_WITHOUT_WEIGHT = 10.0  # m/s
+_TYPICAL_SPEED = 10.0  # m/s, without weight or air
 # Where each start is dear.
 FEW_SPEEDS = (1.0, 1.6, 0.65)
 FEW_INCIDENCES = (5.0,)
@@ -39,8 +39,8 @@ def steady_states(
     `StateError` where the wing has no area.
     """
     weight = model.mass * model.bird.gravity
-    pressure = weight / (model.wing_area * _LIFT_COEFFICIENT)
-    typical = float(np.sqrt(2.0 * pressure / model.airframe.density)) or _WITHOUT_WEIGHT
+    lift = 0.5 * model.airframe.density * model.wing_area * _LIFT_COEFFICIENT  # at 1 m/s
+    typical = float(np.sqrt(weight / lift)) if weight and lift else _TYPICAL_SPEED
     v, alpha, gamma = (
         axis.ravel()
         for axis in np.meshgrid(

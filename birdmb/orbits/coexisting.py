@@ -19,6 +19,7 @@ from birdmb.orbits.result import FloquetResult
 from birdmb.orbits.sameness import among
 from birdmb.orbits.search import NEAR, SearchMethod, find_limit_cycle, most_nodes
 from birdmb.orbits.shooting_search import period_or_guess
+from birdmb.threads import one_thread
 
 Guess = npt.ArrayLike | FloquetResult
 
@@ -41,6 +42,7 @@ class Attempt:
     found: int
 
 
+@one_thread()
 def find_limit_cycles(
     model: Model,
     starts: Sequence[Guess] | None = None,

@@ -38,12 +38,14 @@ from birdmb.orbits.shooting_search import (
     proposal,
 )
 from birdmb.orbits.trigonometric import resampled, without_drift
+from birdmb.threads import one_thread
 
 # Fewer instants do not show a path: it is then flown from them.
 FEWEST_INSTANTS = 9
 _Found = Collocated[CollocationEquations]
 
 
+@one_thread()
 def search_by_collocation(
     model: Model,
     guess: npt.ArrayLike | FloquetResult | None,

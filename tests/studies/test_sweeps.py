@@ -21,8 +21,8 @@ from birdmb.studies.sweeps.point import (
     described,
 )
 from birdmb.studies.sweeps.run import _Filling
-from birdmb.studies.sweeps.threads import one_thread
 from birdmb.studies.sweeps.verdicts import verdict_lines
+from birdmb.threads import one_thread
 
 from .sweeping import AMPLITUDE, GRID, IMPOSSIBLE, MASS, QUICK, Inline, coarse_bird
 

@@ -24,9 +24,9 @@ from birdmb.studies.sweeps.grid import Value
 from birdmb.studies.sweeps.sensitivity import sensitivities
 from birdmb.studies.sweeps.settings import Search, Trimming
 from birdmb.studies.sweeps.sheets import on_sheet
-from birdmb.studies.sweeps.threads import one_thread
 from birdmb.studies.trim import TrimGuess, trim_flight
 from birdmb.studies.validity import assess_validity
+from birdmb.threads import one_thread
 from birdmb.topology import Bird
 
 COLD = "cold"

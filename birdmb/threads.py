@@ -1,4 +1,4 @@
-"""One thread of linear algebra while points are computed."""
+"""One thread of linear algebra: for small matrices more cost time and the last bits of results."""
 
 from __future__ import annotations
 
@@ -21,17 +21,26 @@ def _libraries() -> ThreadpoolController:
     return ThreadpoolController()
 
 
+def _take_control() -> None:
+    """Let this thread set the limit: threadpoolctl 3.8 leaves that to the first that ever did."""
+    for library in _libraries().lib_controllers:
+        clear = getattr(library, "clear_controlling_thread", None)
+        if clear is not None:
+            clear(force=True)
+
+
 @contextmanager
 def one_thread() -> Iterator[None]:
     """One thread of linear algebra within: how many share a sum decides its last bits.
 
-    The limit is the whole process's. Where threads compute points side by side, the first one that
-    begins sets it and the last one that ends lifts it.
+    The limit is the whole process's. Where threads compute side by side, the first one that begins
+    sets it and the last one that ends lifts it.
     """
     global _computing, _limits  # noqa: PLW0603 - the limit that they count is global, too
     with _counting:
         _computing += 1
         if _computing == 1:
+            _take_control()
             _limits = _libraries().limit(limits=1)
     try:
         yield
@@ -39,5 +48,7 @@ def one_thread() -> Iterator[None]:
         with _counting:
             _computing -= 1
             if _computing == 0 and _limits is not None:
+                _take_control()
                 _limits.restore_original_limits()
                 _limits = None
+                _take_control()
