@@ -15,6 +15,8 @@ import numpy as np
 
 import birdmb
 from birdmb.orbits import Bifurcation, BranchPoint, Steps
+from birdmb.orbits.newton import Damping
+from birdmb.orbits.trigonometric import resampled
 from birdmb.studies import bird_branch, plot_bird_branch
 
 IBIS = Path(__file__).parent.parent / "topologies" / "ibis_compliant_shoulder.toml"
@@ -56,12 +58,13 @@ def evidence(bird: birdmb.Bird) -> None:
         f"fold at k = {fold.parameter:.6f}: {at_fold:.3f} m/s, closure {fold.point.residual:.0e}, "
         f"multipliers {fold.point.multipliers[0]:.6f}, {fold.point.multipliers[1]:.6f}"
     )
-    ends = [branch.points[i].points - fold.point.points for i in (-2, -1)]
+    nodes = len(fold.point.points)
+    ends = [resampled(branch.points[i].points, nodes) - fold.point.points for i in (-2, -1)]
     print("distance above the fold: speed, (its change)^2 over the distance, first two multipliers")
     for distance in (1e-3, 1e-2):
         for towards in ends:
             model = family(fold.parameter + distance)
-            cycle = birdmb.find_limit_cycle(model, (fold.point.points + 0.3 * towards)[0])
+            cycle = birdmb.find_limit_cycle(model, fold.point.points + 0.3 * towards)
             print(
                 f"  {distance:.0e}: {cycle.mean_speed:.3f} m/s, "
                 f"{(cycle.mean_speed - at_fold) ** 2 / distance:.2f}, "
@@ -70,19 +73,19 @@ def evidence(bird: birdmb.Bird) -> None:
             )
     print("distance below the fold: what searches from the flight at the fold end with")
     for distance in (1e-3, 1e-2, 1e-1):
-        for method in ("newton", "levenberg-marquardt"):
-            outcome = searched(family(fold.parameter - distance), fold, method)
-            print(f"  {distance:.0e}, {method}: {outcome}", flush=True)
+        for damping in ("line-search", "levenberg-marquardt"):
+            outcome = searched(family(fold.parameter - distance), fold, damping)
+            print(f"  {distance:.0e}, {damping}: {outcome}", flush=True)
 
 
 def member(bird: birdmb.Bird, stiffness: float) -> birdmb.MultibodyModel:
     return birdmb.MultibodyModel(bird.with_values({STIFFNESS: stiffness}))
 
 
-def searched(model: birdmb.MultibodyModel, fold: Bifurcation, method: str) -> str:
+def searched(model: birdmb.MultibodyModel, fold: Bifurcation, damping: Damping) -> str:
     try:
         cycle = birdmb.find_limit_cycle(
-            model, fold.point.points[0], method=method, max_iterations=25
+            model, fold.point.points, method="collocation", damping=damping, max_iterations=25
         )
     except birdmb.ConvergenceError as error:
         return f"no cycle, best closure {error.residual:.1e}"
@@ -109,6 +112,7 @@ def refined(bird: birdmb.Bird) -> None:
             bird.with_values(values),
             STIFFNESS,
             (10.0, 3.0),
+            method="shooting",
             steps_per_beat=steps_per_beat,
             max_bifurcations=1,
             steps=Steps(first=0.1, longest=0.4),
