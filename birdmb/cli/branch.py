@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from birdmb.orbits import Branch
+    from birdmb.orbits.search import SearchMethod
     from birdmb.studies.branch import BirdModel
     from birdmb.topology import Bird
 
@@ -58,6 +59,7 @@ class Following:
     stop: float
     model: str
     max_points: int
+    method: SearchMethod
     segments: int | None
     tolerance: float
     steps_per_beat: int | None
@@ -160,8 +162,9 @@ def _followed(
             wanted.parameter,
             (wanted.start, wanted.stop),
             _model(wanted.model),
+            method=wanted.method,
             steps_per_beat=wanted.steps_per_beat,
-            segments=wanted.segments or 1,
+            segments=wanted.segments,
             steps=Steps(longest=wanted.longest_step),
             max_points=wanted.max_points,
             tolerance=wanted.tolerance,
@@ -200,7 +203,7 @@ class _Lines:
             self._headed = True
             self._progress.line(
                 f"{'point':>5}  {self._parameter:>{self._width}}  {'|Λ|max':>8}  {'error':>7}  "
-                f"{'stability':<9}  {'speed, m/s':>10}  {'climb, m/s':>10}",
+                f"{'stability':<9}  {'speed, m/s':>10}  {'climb, m/s':>10}  {'nodes':>5}",
                 style="bold",
             )
         if isinstance(item, Bifurcation):
@@ -212,7 +215,7 @@ class _Lines:
         self._progress.line(
             f"{self.number:>5}  {item.parameter:>{self._width}.8g}  {modulus:>8.5f}  "
             f"{error:>7.0e}  {item.stability:<9}  {seen['mean_speed']:>10.3f}  "
-            f"{seen['mean_climb_rate']:>+10.3f}",
+            f"{seen['mean_climb_rate']:>+10.3f}  {item.nodes or 'shot':>5}",
             style=_STYLES[item.stability],
         )
         self._progress.doing("following the branch")
@@ -320,6 +323,8 @@ def _point_object(point: BranchPoint) -> dict[str, object]:
         "period": point.period,
         "x0": [float(value) for value in point.points[0]],
         "residual": point.residual,
+        "method": point.method,
+        "nodes": point.nodes,
         "multipliers": [[float(m.real), float(m.imag)] for m in point.multipliers],
         "multiplier_errors": [finite(float(error)) for error in point.multiplier_errors],
         "stability": point.stability,

@@ -23,6 +23,7 @@ from birdmb.orbits import (
     Steps,
     continue_branch,
 )
+from birdmb.orbits.search import SearchMethod
 from birdmb.studies.relevance import check_relevant
 from birdmb.studies.validity import Validity, assess_validity
 from birdmb.topology import Bird
@@ -52,8 +53,9 @@ def bird_branch(
     parameter_range: tuple[float, float],
     model: BirdModel = MultibodyModel,
     *,
+    method: SearchMethod = "auto",
     steps_per_beat: int | None = None,
-    segments: int = 1,
+    segments: int | None = None,
     steps: Steps = _DEFAULT_STEPS,
     max_points: int = 200,
     max_bifurcations: int | None = None,
@@ -65,8 +67,8 @@ def bird_branch(
 ) -> Branch:
     """Follow the limit cycles of a bird in one parameter by `continue_branch`.
 
-    One method and number of integration steps holds for the whole branch: a model that chose its
-    own from value to value would make the orbits jump.
+    Of shooting, one method and number of integration steps holds for the whole branch: a model that
+    chose its own from value to value would make the orbits jump.
 
     Args:
         bird: the bird.
@@ -75,9 +77,11 @@ def bird_branch(
         parameter_range: from where to where, in the unit of the name. The branch starts at the
             first, which it may come back to.
         model: makes the model of a bird.
-        steps_per_beat: integration steps; by default the most that the model chooses at any of 9
-            values over the range, and a multiple of `segments`.
-        segments: number of shooting segments.
+        method: "collocation", "shooting" or "auto", as for `continue_branch`.
+        steps_per_beat: integration steps; given, they make "auto" choose shooting. By default the
+            most that the model chooses at any of 9 values over the range, and a multiple of
+            `segments`.
+        segments: number of shooting segments, by default 1; given, it makes "auto" choose shooting.
         steps: step sizes along the branch.
         max_points: number of points allowed, those resumed from included.
         max_bifurcations: end at the first point after so many bifurcations.
@@ -109,8 +113,11 @@ def bird_branch(
     check_relevant(bird, {name: (first, last)}, model)
     start = bird.with_values({name: first})
     integration = _integration(bird, name, (first, last), model, steps_per_beat)
+    if method == "auto" and (steps_per_beat is not None or segments is not None):
+        method = "shooting"
+    count = segments or 1
     if steps_per_beat is None:
-        integration["steps_per_beat"] = -(-integration["steps_per_beat"] // segments) * segments
+        integration["steps_per_beat"] = -(-integration["steps_per_beat"] // count) * count
     family = partial(_member, bird, name, partial(model, **integration))
     settings: dict[str, str | float] = {
         "bird": start.name,
@@ -119,8 +126,9 @@ def bird_branch(
         "from": first,
         "to": last,
         "model": type(family(first)).__name__,
+        "method": method,
         **integration,
-        "segments": segments,
+        "segments": count,
         "tolerance": tolerance,
         "longest_step": steps.longest,
     }
@@ -130,6 +138,7 @@ def bird_branch(
         family,
         (first, last),
         parameter_name=name,
+        method=method,
         segments=segments,
         steps=steps,
         max_points=max_points,
@@ -215,7 +224,7 @@ def flight_observables(bird: Bird) -> dict[str, Callable[[LimitCycle], float]]:
         "mean_speed": lambda cycle: cycle.mean_speed,
         "mean_climb_rate": lambda cycle: cycle.mean_climb_rate,
         "power": lambda cycle: cycle.power,
-        "mean_pitch": lambda cycle: float(cycle.beat.states[:-1, 3].mean()),
+        "mean_pitch": lambda cycle: cycle.mean_pitch,
     }
     if "shoulder.flap" in bird.joint_names:
         joint = bird.joint_names.index("shoulder.flap")
