@@ -15,6 +15,7 @@ import numpy as np
 
 import birdmb
 from birdmb.orbits import Bifurcation, BranchPoint, Steps
+from birdmb.orbits.newton import Damping
 from birdmb.studies import bird_branch, plot_bird_branch
 
 IBIS = Path(__file__).parent.parent / "topologies" / "ibis_compliant_shoulder.toml"
@@ -61,7 +62,7 @@ def evidence(bird: birdmb.Bird) -> None:
     for distance in (1e-3, 1e-2):
         for towards in ends:
             model = family(fold.parameter + distance)
-            cycle = birdmb.find_limit_cycle(model, (fold.point.points + 0.3 * towards)[0])
+            cycle = birdmb.find_limit_cycle(model, fold.point.points + 0.3 * towards)
             print(
                 f"  {distance:.0e}: {cycle.mean_speed:.3f} m/s, "
                 f"{(cycle.mean_speed - at_fold) ** 2 / distance:.2f}, "
@@ -70,19 +71,19 @@ def evidence(bird: birdmb.Bird) -> None:
             )
     print("distance below the fold: what searches from the flight at the fold end with")
     for distance in (1e-3, 1e-2, 1e-1):
-        for method in ("newton", "levenberg-marquardt"):
-            outcome = searched(family(fold.parameter - distance), fold, method)
-            print(f"  {distance:.0e}, {method}: {outcome}", flush=True)
+        for damping in ("line-search", "levenberg-marquardt"):
+            outcome = searched(family(fold.parameter - distance), fold, damping)
+            print(f"  {distance:.0e}, {damping}: {outcome}", flush=True)
 
 
 def member(bird: birdmb.Bird, stiffness: float) -> birdmb.MultibodyModel:
     return birdmb.MultibodyModel(bird.with_values({STIFFNESS: stiffness}))
 
 
-def searched(model: birdmb.MultibodyModel, fold: Bifurcation, method: str) -> str:
+def searched(model: birdmb.MultibodyModel, fold: Bifurcation, damping: Damping) -> str:
     try:
         cycle = birdmb.find_limit_cycle(
-            model, fold.point.points[0], method=method, max_iterations=25
+            model, fold.point.points[0], method="shooting", damping=damping, max_iterations=25
         )
     except birdmb.ConvergenceError as error:
         return f"no cycle, best closure {error.residual:.1e}"

@@ -35,7 +35,7 @@ def redox(p: float = 1.0) -> OdeModel:
 
 def main(directory: Path) -> None:
     cycle = find_limit_cycle(
-        redox(), period_guess=23.0, segments=4, method="levenberg-marquardt", tolerance=1e-7
+        redox(), period_guess=23.0, segments=4, damping="levenberg-marquardt", tolerance=1e-7
     )
     print(f"period {cycle.period:.6f} h, {cycle.stability}, {len(cycle.iterations)} iterations")
     for i, value in enumerate(cycle.multipliers):
