@@ -91,11 +91,11 @@ def searched(model: birdmb.MultibodyModel, fold: Bifurcation, damping: Damping) 
 
 
 def variations() -> Iterator[tuple[str, dict[str, object], int | None]]:
-    yield "as it is: 32 elements, 120 steps", {}, None
+    yield "as it is: 32 elements, collocation", {}, None
     for elements in (16, 48):
         yield f"{elements} elements", {"wing.discretisation.elements": elements}, None
     for steps in (60, 240):
-        yield f"{steps} steps per beat", {}, steps
+        yield f"shooting, {steps} steps per beat", {}, steps
     yield "published wing", {"wing.discretisation": "published"}, None
     for inertia in (0.0003, 0.002):
         values: dict[str, object] = {
@@ -120,7 +120,7 @@ def refined(bird: birdmb.Bird) -> None:
             print(
                 f"{label}: {found.kind} at {found.parameter:.6f} +- {found.parameter_error:.0e}, "
                 f"{seen['mean_speed']:.2f} m/s, attack "
-                f"{np.degrees(seen['largest_angle_of_attack']):.1f} deg, integration error "
+                f"{np.degrees(seen['largest_angle_of_attack']):.1f} deg, error of the states "
                 f"{seen['integration_error']:.0e}",
                 flush=True,
             )
