@@ -125,7 +125,8 @@ def refined(bird: birdmb.Bird) -> None:
                 flush=True,
             )
         if not branch.bifurcations:
-            print(f"{label}: {branch.stopped or 'no bifurcation in the range'}", flush=True)
+            why = branch.stopped.reason if branch.stopped else "the end of the range"
+            print(f"{label}: no bifurcation up to {branch.parameters[-1]:.4f}, {why}", flush=True)
 
 
 def main(argument: str) -> None:
