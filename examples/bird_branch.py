@@ -16,7 +16,6 @@ import numpy as np
 import birdmb
 from birdmb.orbits import Bifurcation, BranchPoint, Steps
 from birdmb.orbits.newton import Damping
-from birdmb.orbits.trigonometric import resampled
 from birdmb.studies import bird_branch, plot_bird_branch
 
 IBIS = Path(__file__).parent.parent / "topologies" / "ibis_compliant_shoulder.toml"
@@ -58,8 +57,7 @@ def evidence(bird: birdmb.Bird) -> None:
         f"fold at k = {fold.parameter:.6f}: {at_fold:.3f} m/s, closure {fold.point.residual:.0e}, "
         f"multipliers {fold.point.multipliers[0]:.6f}, {fold.point.multipliers[1]:.6f}"
     )
-    nodes = len(fold.point.points)
-    ends = [resampled(branch.points[i].points, nodes) - fold.point.points for i in (-2, -1)]
+    ends = [branch.points[i].points - fold.point.points for i in (-2, -1)]
     print("distance above the fold: speed, (its change)^2 over the distance, first two multipliers")
     for distance in (1e-3, 1e-2):
         for towards in ends:
@@ -85,7 +83,7 @@ def member(bird: birdmb.Bird, stiffness: float) -> birdmb.MultibodyModel:
 def searched(model: birdmb.MultibodyModel, fold: Bifurcation, damping: Damping) -> str:
     try:
         cycle = birdmb.find_limit_cycle(
-            model, fold.point.points, method="collocation", damping=damping, max_iterations=25
+            model, fold.point.points[0], method="shooting", damping=damping, max_iterations=25
         )
     except birdmb.ConvergenceError as error:
         return f"no cycle, best closure {error.residual:.1e}"
@@ -93,11 +91,11 @@ def searched(model: birdmb.MultibodyModel, fold: Bifurcation, damping: Damping) 
 
 
 def variations() -> Iterator[tuple[str, dict[str, object], int | None]]:
-    yield "as it is: 32 elements, 120 steps", {}, None
+    yield "as it is: 32 elements, collocation", {}, None
     for elements in (16, 48):
         yield f"{elements} elements", {"wing.discretisation.elements": elements}, None
     for steps in (60, 240):
-        yield f"{steps} steps per beat", {}, steps
+        yield f"shooting, {steps} steps per beat", {}, steps
     yield "published wing", {"wing.discretisation": "published"}, None
     for inertia in (0.0003, 0.002):
         values: dict[str, object] = {
@@ -112,7 +110,6 @@ def refined(bird: birdmb.Bird) -> None:
             bird.with_values(values),
             STIFFNESS,
             (10.0, 3.0),
-            method="shooting",
             steps_per_beat=steps_per_beat,
             max_bifurcations=1,
             steps=Steps(first=0.1, longest=0.4),
@@ -123,12 +120,13 @@ def refined(bird: birdmb.Bird) -> None:
             print(
                 f"{label}: {found.kind} at {found.parameter:.6f} +- {found.parameter_error:.0e}, "
                 f"{seen['mean_speed']:.2f} m/s, attack "
-                f"{np.degrees(seen['largest_angle_of_attack']):.1f} deg, integration error "
+                f"{np.degrees(seen['largest_angle_of_attack']):.1f} deg, error of the states "
                 f"{seen['integration_error']:.0e}",
                 flush=True,
             )
         if not branch.bifurcations:
-            print(f"{label}: {branch.stopped or 'no bifurcation in the range'}", flush=True)
+            why = branch.stopped.reason if branch.stopped else "the end of the range"
+            print(f"{label}: no bifurcation up to {branch.parameters[-1]:.4f}, {why}", flush=True)
 
 
 def main(argument: str) -> None:

@@ -35,8 +35,9 @@ class BranchPoint:
         next_step: length of the step that was to follow, from which a continuation resumes.
         observables: what the caller asked to be recorded of the orbit, by name.
         method: "collocation" or "shooting".
-        state_error: largest error of the states of a collocated orbit, in units of their scale: the
-            correction on half as many nodes again; 0 of a shot one.
+        state_error: largest error of the unknowns of a collocated orbit, the correction on half as
+            many nodes again: of the states in units of their scale, of the period in periods, of
+            the parameter in parameter ranges; 0 of a shot one.
     """
 
     parameter: float
@@ -70,8 +71,8 @@ class Bifurcation:
             have, as in several copies of one system, in symmetric systems, and where a pair crosses
             at 1 or -1 (the strong resonances 1:1 and 1:2). `multipliers` says which.
         point: the orbit there.
-        parameter_error: bound of the error of the parameter that comes from the location and from
-            the error bounds of the multipliers.
+        parameter_error: bound of the error of the parameter that comes from the location, from the
+            error bounds of the multipliers and from the nodes of collocation.
         after: index of the branch point before it.
         crossing: mask (n,) of the multipliers that cross.
         outside: numbers of multipliers outside the unit circle before and after, in the direction

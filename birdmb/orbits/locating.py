@@ -191,7 +191,7 @@ def _at_sign_change(chord: Chord, kind: BifurcationKind, neutral: Neutral) -> _E
     point = chord.at(distance)
     centre = -1.0 if kind == "period doubling" else 1.0
     order = _order(point, np.abs(point.multipliers - centre), chord, neutral)
-    error = width
+    error = width + _by_nodes(point, chord)
     if kind != "fold":
         ends = (_nearest(end, centre) for end in (chord.before, chord.after))
         error += _spread(chord, float(point.multiplier_errors[order[0]]), *ends)
@@ -219,7 +219,8 @@ def _at_modulus(
     staying = neutral.circle + (point.trivial_index is not None)
     size = max(1, int(near[: len(near) - staying].sum()))
     ends = (_excess_at(place, end, neutral)[0] for end in (chord.before, chord.after))
-    error = width + _spread(chord, _excess_at(place, point, neutral)[1], *ends)
+    error = width + _by_nodes(point, chord)
+    error += _spread(chord, _excess_at(place, point, neutral)[1], *ends)
     return _Event(distance, point, None, order, size, error)
 
 
@@ -240,6 +241,11 @@ def _nearest(point: BranchPoint, centre: float) -> float:
     keep = np.arange(len(point.multipliers)) != point.trivial_index
     values = point.multipliers[keep]
     return float(np.abs(values[np.abs(values - centre).argmin()]) - 1)
+
+
+def _by_nodes(point: BranchPoint, chord: Chord) -> float:
+    """Error of the parameter of a collocated orbit: it is one of the unknowns of the correction."""
+    return point.state_error * chord.unit
 
 
 def _spread(chord: Chord, error: float, at_start: float, at_end: float) -> float:

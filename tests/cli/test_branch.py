@@ -51,8 +51,17 @@ def test_a_line_for_every_flight(followed):
         [point["parameter"] for point in found["points"]], rel=1e-7
     )
     assert {row[4] for row in rows} == {"unstable"}
+    assert [int(row[7]) for row in rows] == [point["nodes"] for point in found["points"]]
     assert sorted(file.name for file in directory.iterdir()) == ["branch.nc", "branch.png"]
     assert imread(directory / "branch.png")[..., :3].std() > 0.02
+
+
+def test_shooting_is_taken_where_it_is_asked_for(run):
+    for asked in (("--method", "shooting"), ("--steps-per-beat", "24"), ("--segments", "2")):
+        result = run(*FOLLOW, *asked, "--max-points", "2", "--json")
+        assert result.exit_code == 0, result.stderr
+        assert {point["method"] for point in json.loads(result.stdout)["points"]} == {"shooting"}
+        assert [line.split()[-1] for line in result.stderr.splitlines()[2:4]] == ["shot", "shot"]
 
 
 def test_the_table_fits(run):

@@ -16,6 +16,7 @@ from birdmb.orbits import (
     stability_boundary,
 )
 
+BOTH = pytest.mark.parametrize("method", ["collocation", "shooting"])
 PERIOD = 2 * np.pi
 COARSE = Steps(first=0.05, longest=0.2)
 
@@ -73,8 +74,10 @@ def duffing(frequency):
     )
 
 
-def test_a_fold_is_passed():
-    branch = continue_branch(saddle_node, (1.0, -1.0), steps=COARSE)
+@BOTH
+def test_a_fold_is_passed(method):
+    branch = continue_branch(saddle_node, (1.0, -1.0), steps=COARSE, method=method)
+    assert {point.method for point in branch.points} == {method}
     (fold,) = branch.bifurcations
     assert fold.kind == "fold"
     assert abs(fold.parameter) < 1e-6
@@ -87,10 +90,14 @@ def test_a_fold_is_passed():
 
 
 @pytest.mark.long
-def test_duffings_folds_separate_one_orbit_from_three():
-    branch = continue_branch(duffing, (1.6, 1.2), steps=Steps(longest=0.2))
+@BOTH
+def test_duffings_folds_separate_one_orbit_from_three(method):
+    branch = continue_branch(duffing, (1.6, 1.2), steps=Steps(longest=0.2), method=method)
     kinds = [bifurcation.kind for bifurcation in branch.bifurcations]
     assert kinds == ["fold", "fold"]
+    # two methods that share no equation agree in these to ten digits
+    folds = [bifurcation.parameter for bifurcation in branch.bifurcations]
+    assert folds == pytest.approx([1.30304596945, 1.38385653199], abs=1e-9)
     for fold, inwards in zip(branch.bifurcations, (1, -1), strict=True):
         assert np.abs(fold.point.multipliers - 1).min() < 1e-4
         near = find_limit_cycle(duffing(fold.parameter + inwards * 1e-4), fold.point.points)
@@ -102,12 +109,19 @@ def test_duffings_folds_separate_one_orbit_from_three():
         assert np.abs(far.x0 - fold.point.points[0]).max() > 0.3
 
 
-def test_roesslers_first_period_doubling():
+@BOTH
+def test_roesslers_first_period_doubling(method):
     def family(c):
         return roessler(c, rtol=1e-10, atol=1e-12)
 
     branch = continue_branch(
-        family, (3.5, 4.2), [0, -4.6, 0.05], period_guess=5.9, steps=COARSE, max_bifurcations=1
+        family,
+        (3.5, 4.2),
+        [0, -4.6, 0.05],
+        period_guess=5.9,
+        steps=COARSE,
+        max_bifurcations=1,
+        method=method,
     )
     (doubling,) = branch.bifurcations
 
@@ -122,6 +136,7 @@ def test_roesslers_first_period_doubling():
     assert [branch.points[i].stability for i in (0, -1)] == ["stable", "unstable"]
 
 
+@BOTH
 @pytest.mark.parametrize(
     ("family", "kind"),
     [
@@ -130,8 +145,8 @@ def test_roesslers_first_period_doubling():
         (transcritical, "branch point"),
     ],
 )
-def test_exact_bifurcations(family, kind):
-    branch = continue_branch(family, (-0.31, 0.17), steps=COARSE)
+def test_exact_bifurcations(family, kind, method):
+    branch = continue_branch(family, (-0.31, 0.17), steps=COARSE, method=method)
     (found,) = branch.bifurcations
     assert found.kind == kind
     assert abs(found.parameter) < 1e-6
@@ -147,9 +162,15 @@ def test_a_neutral_saddle_is_no_bifurcation():
 
 
 @pytest.mark.long
-def test_cycles_that_shrink_to_an_equilibrium():
+@BOTH
+def test_cycles_that_shrink_to_an_equilibrium(method):
     branch = continue_branch(
-        stuart_landau, (0.5, -0.5), [0.7, 0.0], period_guess=3.1, steps=Steps(longest=0.05)
+        stuart_landau,
+        (0.5, -0.5),
+        [0.7, 0.0],
+        period_guess=3.1,
+        steps=Steps(longest=0.05),
+        method=method,
     )
     assert branch.stopped.reason == "the cycles shrank to an equilibrium"
     assert 0 < branch.parameters[-1] < 0.01
@@ -236,10 +257,11 @@ class Killed(BaseException):
 
 
 @pytest.mark.long
+@BOTH
 @pytest.mark.parametrize("after", [1, 5])
-def test_a_killed_run_resumes_on_the_same_branch(tmp_path, after):
+def test_a_killed_run_resumes_on_the_same_branch(tmp_path, after, method):
     path = tmp_path / "branch.nc"
-    whole = continue_branch(saddle_node, (1.0, -1.0), steps=COARSE)
+    whole = continue_branch(saddle_node, (1.0, -1.0), steps=COARSE, method=method)
     seen = []
 
     def kill(item):
@@ -247,7 +269,8 @@ def test_a_killed_run_resumes_on_the_same_branch(tmp_path, after):
         if len(seen) == after:
             raise Killed
 
-    options = {"steps": COARSE, "store": path, "settings": {"system": "saddle node", "speed": 0.2}}
+    settings = {"system": "saddle node", "speed": 0.2}
+    options = {"steps": COARSE, "store": path, "settings": settings, "method": method}
     with pytest.raises(Killed):
         continue_branch(saddle_node, (1.0, -1.0), callback=kill, **options)
     kept = load_branch(path)
