@@ -191,17 +191,6 @@ class CollocationEquations:
         return float(_NOISE * _EPS * largest)
 
 
-class HasNodes(Protocol):
-    """Collocation equations, of an orbit alone or with others."""
-
-    @property
-    def nodes(self) -> int:
-        """Number of nodes."""
-
-    def start_and_period(self, u: FloatArray, /) -> tuple[FloatArray, float]:
-        """State (n,) at the start, in its own units, and the period."""
-
-
 @dataclass(frozen=True)
 class Collocated(Generic[EquationsT]):
     """A solution of the collocation equations, and what a finer one makes of it.
@@ -284,7 +273,7 @@ def collocate(
         if fixed or error <= accuracy:
             return Collocated(equations, u, residual, finer, finer_u, error, tuple(history))
         errors.append(error)
-        refuse_rough(equations, u, errors, accuracy, most_nodes, history)
+        _refuse_rough(equations, u, errors, accuracy, most_nodes, history)
         first = resampled(jacobians, finer.nodes)
         equations, u = finer, finer_u
 
@@ -308,8 +297,8 @@ def _correction(
     return finer, start + step, _ERROR_PER_CORRECTION * float(np.abs(step).max())
 
 
-def refuse_rough(
-    equations: HasNodes,
+def _refuse_rough(
+    equations: OnNodes,
     u: FloatArray,
     errors: list[float],
     accuracy: float,

@@ -8,19 +8,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import Self
 
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.errors import OrbitError, StateError
+from birdmb.errors import StateError
 from birdmb.models.flight_cycle import world_velocity
 from birdmb.orbits.collocation import (
     Collocated,
     CollocationEquations,
-    more_nodes,
-    refuse_rough,
+    LatestJacobians,
+    collocate,
 )
-from birdmb.orbits.newton import Iteration, solve
 from birdmb.orbits.right_hand_side import RightHandSide
 from birdmb.orbits.trigonometric import resampled
 from birdmb.studies.cycles import KeptModels
@@ -58,15 +58,15 @@ class CollocatedTrim:
         self._model_at, self._low, self._width = model_at, low, high - low
         self._targets, self.nodes = targets, nodes
         self._equations: dict[tuple[float, ...], CollocationEquations] = {}
-        self.by_state: FloatArray = np.empty(0)
-        """Derivatives (N, n, n) of the scaled rates at the last Jacobian."""
-        self.by_share: FloatArray = np.empty(0)
-        """Derivatives (N n, k) of the orbit's residuals there."""
+        self.latest = LatestJacobians()
 
-    def with_nodes(self, nodes: int) -> CollocatedTrim:
-        """The same system on other nodes."""
+    def on_nodes(self, nodes: int, u: FloatArray) -> tuple[Self, FloatArray]:
+        """The same system and unknowns on other nodes."""
         high = self._low + self._width
-        return CollocatedTrim(self._model_at, self._low, high, self._targets, nodes)
+        other = type(self)(self._model_at, self._low, high, self._targets, nodes)
+        states, _ = self.unpack(u)
+        scaled = resampled(states.reshape(self.nodes, -1), nodes)
+        return other, np.concatenate([scaled.ravel(), u[states.size :]])
 
     def pack(self, path: FloatArray, point: FloatArray) -> FloatArray:
         """Unknowns of states (K, n) at K even instants, K odd, and parameters (k,)."""
@@ -108,30 +108,36 @@ class CollocatedTrim:
         return np.concatenate([equations.residual(states), missed])
 
     def jacobian(self, u: FloatArray) -> FloatArray:
-        """Its derivative; by the parameters by differences of the rates."""
+        """Its derivative."""
+        self.latest.jacobians = self.rate_jacobians(u)
+        return self.assemble(u, self.latest.jacobians)
+
+    def rate_jacobians(self, u: FloatArray) -> FloatArray:
+        """Derivatives (N, n, n + k) of the rates by the scaled states, then by the shares.
+
+        By the shares differences of the slopes in a period, which they may change, per period.
+        """
         states, point = self.unpack(u)
         equations = self.orbit(point)
-        times = equations.times(equations.period)
-        self.by_state = equations.rhs.jacobians(times, states.reshape(self.nodes, -1))
-        here = equations.residual(states)
-        columns = []
+        slopes = _slopes(equations, states)
+        columns = [equations.rate_jacobians(states)]
         for share, width in zip(np.eye(point.size), self._width, strict=True):
             inwards = point @ share > self._low @ share + 0.5 * width
             step = -_STEP if inwards else _STEP
-            shifted = self.orbit(point + step * width * share).residual(states)
-            columns.append((shifted - here) / step)
-        self.by_share = np.array(columns).reshape(point.size, states.size).T
-        return self.assemble(u, self.by_state, self.by_share)
+            shifted = _slopes(self.orbit(point + step * width * share), states)
+            columns.append(((shifted - slopes) / (step * equations.period))[:, :, None])
+        return np.concatenate(columns, axis=2)
 
-    def assemble(self, u: FloatArray, by_state: FloatArray, by_share: FloatArray) -> FloatArray:
-        """The derivative from those of the rates (N, n, n) and of the residuals (N n, k)."""
+    def assemble(self, u: FloatArray, rate_jacobians: FloatArray) -> FloatArray:
+        """Its derivative from those (N, n, n + k) of the rates."""
         states, point = self.unpack(u)
         equations = self.orbit(point)
-        count = point.size
+        n = states.size // self.nodes
+        by_share = rate_jacobians[:, :, n:].reshape(states.size, point.size)
         matrix = np.zeros((u.size, u.size))
-        matrix[: states.size, : states.size] = equations.assemble(states, by_state)
-        matrix[: states.size, states.size :] = by_share
-        if count:
+        matrix[: states.size, : states.size] = equations.assemble(states, rate_jacobians[:, :, :n])
+        matrix[: states.size, states.size :] = -equations.period * by_share / np.sqrt(self.nodes)
+        if point.size:
             matrix[states.size :, : states.size] = self._means_by_state(u)
         return matrix
 
@@ -165,6 +171,11 @@ class CollocatedTrim:
         return np.array([rows[name] for name in self._targets])
 
 
+def _slopes(equations: CollocationEquations, states: FloatArray) -> FloatArray:
+    """Scaled rates per period (N, n) at the nodes."""
+    return equations.period * equations.rates(*equations.unpack(states))
+
+
 def solve_collocated(
     equations: CollocatedTrim,
     path: FloatArray,
@@ -180,69 +191,35 @@ def solve_collocated(
         path: states (K, n) at K even instants, K odd, to start from.
         point: parameters (k,) to start from.
         tolerance: norm of the residual accepted.
-        accuracy: largest correction that half as many nodes again may make.
+        accuracy: largest error of the states of the trimmed flight, in units of their scale.
+
+    Returns:
+        The parameters, and the orbit of the model with these, whose error is its own: beside a
+        fold it is larger than that of the trimmed flight, which moves with its parameters.
 
     Raises:
         OrbitError: it was not found; `NotSmoothError` where the orbit is too rough.
         StateError: the right-hand side fails at the start.
     """
-    history: list[Iteration] = []
-    errors: list[float] = []
-    u = equations.pack(path, point)
-
-    def record(iteration: Iteration) -> None:
-        history.append(replace(iteration, number=len(history)))
-        give_up_creeping(history[-1])
-
-    while True:
-        u, residual, _ = solve(
-            equations,
-            u,
-            damping="line-search",
-            tolerance=max(tolerance, equations.round_off(u)),
-            max_iterations=ITERATIONS,
-            callback=record,
-        )
-        finer, finer_u, error = _correction(equations, u)
-        if error <= accuracy:
-            break
-        errors.append(error)
-        refuse_rough(equations, u, errors, accuracy, _MOST_NODES, history)
-        equations, u = finer, finer_u
-    states, point = equations.unpack(u)
-    orbit = equations.orbit(point)
-    return point, Collocated(
-        equations=orbit,
-        u=states,
-        residual=residual[: states.size],
-        finer=finer.orbit(point),
-        finer_u=finer.unpack(finer_u)[0],
-        state_error=error,
-        iterations=tuple(history),
+    trimmed = collocate(
+        equations,
+        equations.pack(path, point),
+        damping="line-search",
+        tolerance=tolerance,
+        accuracy=accuracy,
+        max_iterations=ITERATIONS,
+        most_nodes=_MOST_NODES,
+        callback=give_up_creeping,
     )
-
-
-def _correction(
-    equations: CollocatedTrim, u: FloatArray
-) -> tuple[CollocatedTrim, FloatArray, float]:
-    """The system on more nodes, unknowns after a Newton step there, and the largest correction.
-
-    With the derivatives interpolated: they decide how good the step is, not where it leads.
-    """
-    nodes = equations.nodes
-    finer = equations.with_nodes(more_nodes(nodes))
-    _, point = equations.unpack(u)
-    if not equations.by_state.size:
-        equations.jacobian(u)
-    start = finer.pack(equations.path(u), point)
-    by_share = equations.by_share.reshape(nodes, -1, point.size) * np.sqrt(nodes / finer.nodes)
-    matrix = finer.assemble(
-        start,
-        resampled(equations.by_state, finer.nodes),
-        resampled(by_share, finer.nodes).reshape(-1, point.size),
+    states, point = trimmed.equations.unpack(trimmed.u)
+    orbit = collocate(
+        trimmed.equations.orbit(point),
+        states,
+        damping="line-search",
+        tolerance=np.inf,
+        accuracy=accuracy,
+        max_iterations=1,
+        most_nodes=_MOST_NODES,
+        fixed=True,
     )
-    try:
-        step = -np.linalg.solve(matrix, finer.residual(start))
-    except np.linalg.LinAlgError:
-        raise OrbitError("the system of orbit and targets is singular.") from None
-    return finer, start + step, float(np.abs(step).max())
+    return point, replace(orbit, iterations=trimmed.iterations)

@@ -6,7 +6,7 @@ import pytest
 import birdmb
 from birdmb.errors import StateError
 from birdmb.studies.cycles import KeptModels
-from birdmb.studies.trim_collocation import CollocatedTrim
+from birdmb.studies.trim_collocation import CollocatedTrim, solve_collocated
 
 NAMES = ("forearm.roll.offset_deg", "shoulder.flap.amplitude_deg")
 LOW, HIGH = np.array([-30.0, 15.0]), np.array([30.0, 70.0])
@@ -14,12 +14,17 @@ TARGETS = {"climb_rate": 0.0, "speed": 16.0}
 
 
 @pytest.fixture(scope="module")
-def system(coarse):
+def models(coarse):
     def model_at(point):
         by_name = dict(zip(NAMES, point.tolist(), strict=True))
         return birdmb.RigidModel(coarse.with_values(by_name))
 
-    return CollocatedTrim(KeptModels(model_at), LOW, HIGH, TARGETS, 9)
+    return KeptModels(model_at)
+
+
+@pytest.fixture(scope="module")
+def system(models):
+    return CollocatedTrim(models, LOW, HIGH, TARGETS, 9)
 
 
 @pytest.fixture(scope="module")
@@ -53,3 +58,19 @@ def test_parameters_stay_within_their_bounds(system, somewhere):
     beyond[-1] = 1.001
     with pytest.raises(StateError, match="left their bounds"):
         system.residual(beyond)
+
+
+@pytest.mark.parametrize("nodes", [9, 13, 17])
+def test_error_bound_of_a_trimmed_orbit_holds(models, nodes):
+    rough = CollocatedTrim(models, LOW, HIGH, TARGETS, nodes)
+    start = np.tile([14.0, 0.5, 0.0, 0.05], (nodes, 1))
+    point, found = solve_collocated(
+        rough, start, np.array([-5.0, 40.0]), tolerance=1e-8, accuracy=0.1
+    )
+    assert found.equations.nodes == nodes
+    model = models(point)
+    states = found.u.reshape(nodes, -1) * model.state_scale
+    exact = birdmb.find_limit_cycle(model, states[0], method="collocation", accuracy=1e-9)
+    exact_states = exact.trajectory(np.arange(nodes) / nodes * exact.period).states
+    error = np.abs((states - exact_states) / model.state_scale).max()
+    assert error <= found.state_error <= 10 * error
