@@ -7,14 +7,17 @@ from rich.console import Console
 from rich.table import Table
 
 import birdmb
+from birdmb.orbits.search import SearchMethod
 
 IBIS = Path(__file__).parent.parent / "topologies" / "ibis.toml"
 FINEST = 192
 
 
-def row(model: birdmb.RigidModel, guess: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def row(
+    model: birdmb.RigidModel, guess: np.ndarray, method: SearchMethod = "auto"
+) -> tuple[np.ndarray, np.ndarray]:
     """x0 (4,) and multipliers (4,) of the limit cycle."""
-    cycle = birdmb.find_limit_cycle(model, guess)
+    cycle = birdmb.find_limit_cycle(model, guess, method=method)
     return cycle.x0, cycle.multipliers
 
 
@@ -59,11 +62,11 @@ def main() -> None:
         table.add_row(f"{rounding:g}", *described(x0, multipliers, reference))
     console.print(table)
 
-    table = Table("steps", *columns, title="Steps per beat, against 960")
-    _, reference = row(birdmb.RigidModel(ibis, steps_per_beat=960), guess)
+    table = Table("steps", *columns, title="Steps per beat of shooting, against 960")
+    _, reference = row(birdmb.RigidModel(ibis, steps_per_beat=960), guess, "shooting")
     for steps in (30, 60, 120, 240):
         model = birdmb.RigidModel(ibis, steps_per_beat=steps)
-        table.add_row(str(steps), *described(*row(model, guess), reference))
+        table.add_row(str(steps), *described(*row(model, guess, "shooting"), reference))
     console.print(table)
 
 

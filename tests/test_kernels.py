@@ -4,12 +4,13 @@ import os
 import re
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
 
 import birdmb
-from birdmb._kernels import KernelCacheWarning, cache_folders, kernel
+from birdmb._kernels import KernelCacheWarning, _LightCompiler, cache_folders, config, kernel
 
 HANGS = 900  # s
 BASE = 10.0
@@ -164,3 +165,25 @@ def test_all_kernels_are_kept_in_this_way():
         if re.search(r"\bn?jit\b", path.read_text(encoding="utf-8"))
     }
     assert others == {"_kernels.py"}
+
+
+@pytest.mark.parametrize("fails", [False, True])
+def test_kernels_are_optimised_lightly_and_others_as_before(monkeypatch, fails):
+    seen = []
+
+    class Compiler:
+        name = "numba's"
+
+        def compile(self, *arguments):
+            seen.append((int(config.OPT), arguments))
+            if fails:
+                raise ValueError
+
+    before = config.OPT
+    monkeypatch.setattr(config, "OPT", type(before)(3))
+    compiler = _LightCompiler(Compiler())
+    with suppress(ValueError):
+        compiler.compile("arguments", "return type")
+    assert seen == [(1, ("arguments", "return type"))]
+    assert config.OPT == 3
+    assert compiler.name == "numba's"

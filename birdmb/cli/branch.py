@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import sys
-from contextlib import redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,12 +13,10 @@ import numpy as np
 from birdmb.cli.console import messages, output
 from birdmb.cli.drawing import plain_style
 from birdmb.cli.files import prepare, write_figure
-from birdmb.cli.interrupt import tidied
 from birdmb.cli.outcome import InputError, SearchFailed
-from birdmb.cli.progress import Progress
+from birdmb.cli.progress import Progress, at_work
 from birdmb.cli.report import table_of
 from birdmb.cli.results import finite
-from birdmb.files import remove_drafts
 from birdmb.orbits import (
     Bifurcation,
     BranchFileError,
@@ -82,20 +79,16 @@ def run(
     progress = Progress(messages())
     kept = _kept(store, resume, progress)
 
-    def tidy() -> None:
-        progress.stop()
-        for directory in directories:
-            remove_drafts(directory)
+    def farewell() -> None:
         if store is not None and store.exists():
             progress.line(f"{store} keeps what was found; --resume goes on with it.")
 
-    # What libraries print on the way, as Exudyn does, is no result.
-    with tidied(tidy), redirect_stdout(sys.stderr), progress.shown():
+    with at_work(progress, *directories, farewell=farewell):
         branch = _followed(bird, wanted, kept, store, progress)
     if not as_json:
         _report(output(), branch)
     written = [] if store is None else [store]
-    with tidied(tidy), redirect_stdout(sys.stderr), progress.shown(), plain_style():
+    with at_work(progress, *directories, farewell=farewell), plain_style():
         if out is not None:
             from birdmb.studies.branch_figure import plot_bird_branch  # noqa: PLC0415 - takes time
 

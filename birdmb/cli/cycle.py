@@ -12,20 +12,16 @@ import typer
 from birdmb.cli.console import messages, output
 from birdmb.cli.drawing import plain_style
 from birdmb.cli.files import prepare, write_results
-from birdmb.cli.interrupt import tidied
 from birdmb.cli.outcome import NO_CYCLE, ResultUnwrittenError
-from birdmb.cli.progress import Progress
+from birdmb.cli.progress import Progress, at_work
 from birdmb.cli.report import print_report
 from birdmb.cli.results import (
     mean_flight,
     other_flights_sentence,
     result_object,
-    taken_as_prescribed,
 )
-from birdmb.cli.searching import TRIM, Search, found_flight, model_of, other_flights
-from birdmb.cli.streams import only_results_on_stdout
+from birdmb.cli.searching import TRIM, Search, announce, found_flight, model_of, other_flights
 from birdmb.errors import OutputError
-from birdmb.files import remove_drafts
 from birdmb.studies import assess_validity
 
 if TYPE_CHECKING:
@@ -43,13 +39,7 @@ def run(
     if out is not None:
         prepare(out)
     progress = Progress(messages())
-
-    def tidy() -> None:
-        progress.stop()
-        if out is not None:
-            remove_drafts(out)
-
-    with tidied(tidy), only_results_on_stdout(), progress.shown():
+    with at_work(progress, out):
         model = model_of(bird, search.model, search.steps_per_beat)
         cycle = _found(model, search, guess, progress)
         progress.doing("loads and power over the beat")
@@ -66,7 +56,7 @@ def run(
     written: list[Path] = []
     if out is not None:
         try:
-            with tidied(tidy), only_results_on_stdout(), progress.shown(), plain_style():
+            with at_work(progress, out), plain_style():
                 written = write_results(cycle, out, progress)
         except OutputError as error:
             raise ResultUnwrittenError(str(error), found) from error
@@ -86,16 +76,7 @@ def run(
 def _found(
     model: RigidModel | MultibodyModel, search: Search, guess: SavedGuess | None, progress: Progress
 ) -> FlightCycle:
-    bird = model.bird
-    progress.line(
-        f"{bird.name}, {search.model} model: {len(model.state_names)} states, "
-        f"wingbeat of {bird.period:.4g} s"
-    )
-    if held := taken_as_prescribed(model):
-        progress.line(
-            f"The {search.model} model takes {', '.join(held)} as prescribed: springs and dampers "
-            "are not used."
-        )
+    announce(model, search.model, progress)
     if guess is not None:
         progress.line(f"Starting from {guess.about}.")
     return found_flight(model, search, guess, progress)

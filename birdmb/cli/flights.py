@@ -12,15 +12,12 @@ import typer
 
 from birdmb.cli.console import messages, output
 from birdmb.cli.files import prepare, write_dataset
-from birdmb.cli.interrupt import tidied
 from birdmb.cli.outcome import NO_CYCLE, ResultUnwrittenError, SearchFailed
-from birdmb.cli.progress import Progress
+from birdmb.cli.progress import Progress, at_work
 from birdmb.cli.report import table_of
-from birdmb.cli.results import result_object, taken_as_prescribed
-from birdmb.cli.searching import TRIM, deflations_for, model_of, number_of, told
-from birdmb.cli.streams import only_results_on_stdout
+from birdmb.cli.results import result_object
+from birdmb.cli.searching import TRIM, announce, deflations_for, model_of, number_of, told
 from birdmb.errors import OutputError
-from birdmb.files import remove_drafts
 from birdmb.orbits import find_limit_cycles
 from birdmb.studies import assess_validity
 
@@ -39,13 +36,7 @@ def run(bird: Bird, model_name: str, *, out: Path | None, as_json: bool) -> None
     if out is not None:
         prepare(out)
     progress = Progress(messages())
-
-    def tidy() -> None:
-        progress.stop()
-        if out is not None:
-            remove_drafts(out)
-
-    with tidied(tidy), only_results_on_stdout(), progress.shown():
+    with at_work(progress, out):
         cycles = _found(bird, model_name, progress)
         progress.doing("loads and power over the beats")
         validity = [assess_validity(cycle) for cycle in cycles]
@@ -60,7 +51,7 @@ def run(bird: Bird, model_name: str, *, out: Path | None, as_json: bool) -> None
                 output().print(remark, style="yellow", highlight=False)
     if out is not None:
         try:
-            with tidied(tidy), only_results_on_stdout(), progress.shown():
+            with at_work(progress, out):
                 for number, cycle in enumerate(cycles, 1):
                     path = write_dataset(out / f"flight_{number}.nc", cycle.to_xarray())
                     objects[number - 1]["files"] = [str(path)]
@@ -77,12 +68,7 @@ def run(bird: Bird, model_name: str, *, out: Path | None, as_json: bool) -> None
 
 def _found(bird: Bird, model_name: str, progress: Progress) -> list[FlightCycle]:
     model = model_of(bird, model_name, None)
-    progress.line(f"{bird.name}, {model_name} model: {len(model.state_names)} states")
-    if held := taken_as_prescribed(model):
-        progress.line(
-            f"The {model_name} model takes {', '.join(held)} as prescribed: springs and dampers "
-            "are not used."
-        )
+    announce(model, model_name, progress)
     progress.doing("laying out the starts")
     found = find_limit_cycles(model, deflations=deflations_for(model), callback=told(progress))
     cycles = cast("list[FlightCycle]", found)

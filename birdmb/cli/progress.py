@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from numba.core import event
@@ -12,6 +13,9 @@ from rich.console import Console
 from rich.text import Text
 
 from birdmb._kernels import any_cached
+from birdmb.cli.interrupt import tidied
+from birdmb.cli.streams import only_results_on_stdout
+from birdmb.files import remove_drafts
 
 if TYPE_CHECKING:
     from birdmb.orbits.newton import Iteration
@@ -110,3 +114,23 @@ def _announcement() -> str:
     if not any_cached():
         return "Compiling the kernels, once per installation (a minute or two) ..."
     return "Compiling kernels that are new or have changed since the last run ..."
+
+
+@contextmanager
+def at_work(
+    progress: Progress, *folders: Path | None, farewell: Callable[[], object] = lambda: None
+) -> Iterator[None]:
+    """Show progress within, with only results on standard output.
+
+    An interruption removes the drafts in the folders that are given, and calls `farewell`.
+    """
+
+    def tidy() -> None:
+        progress.stop()
+        for folder in folders:
+            if folder is not None:
+                remove_drafts(folder)
+        farewell()
+
+    with tidied(tidy), only_results_on_stdout(), progress.shown():
+        yield

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
-from scipy.interpolate import CubicSpline
 
 from birdmb._typing import FloatArray
 from birdmb.cli.outcome import InputError
 from birdmb.orbits import load_branch
+from birdmb.orbits.collocation_search import FEWEST_INSTANTS
+from birdmb.orbits.trigonometric import along_path
 from birdmb.text import on_one_line
 
 if TYPE_CHECKING:
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
 
 _BODY = ("u", "w", "q", "theta")
 _NODES = 65
-# Of a path that is shown by fewer instants, only the first is used.
-_FEWEST_INSTANTS = 9
 
 
 @dataclass(frozen=True)
@@ -45,9 +44,9 @@ class SavedGuess:
         `segments` is the number of shooting segments, if that is given.
         """
         states = self.states
-        if len(states) >= _FEWEST_INSTANTS:
+        if len(states) >= FEWEST_INSTANTS:
             phases = np.arange(_NODES if segments is None else segments)
-            states = _interpolated(states, phases / len(phases))
+            states = along_path(states, phases / len(phases))
         elif segments not in {None, len(states)}:
             states = states[:1]
         times = model.bird.period * np.arange(len(states)) / len(states)
@@ -56,12 +55,6 @@ class SavedGuess:
             if name in self.state_names:
                 found[:, i] = states[:, self.state_names.index(name)]
         return found if len(found) > 1 else found[0]
-
-
-def _interpolated(states: FloatArray, phases: FloatArray) -> FloatArray:
-    closed = np.concatenate([states, states[:1]])
-    grid = np.arange(len(closed)) / len(states)
-    return np.asarray(CubicSpline(grid, closed, bc_type="periodic")(np.mod(phases, 1.0)))
 
 
 def requested_guess(path: Path | None, point: int | None) -> SavedGuess | None:
@@ -112,13 +105,13 @@ def _of_cycle(path: Path, data: xr.Dataset) -> SavedGuess:
     states = np.asarray(data["trajectory"].transpose("time", "state").values, float)
     start = float(data.attrs["start_time"]) / float(data.attrs["period"])
     _require(names, states)
-    if len(states) <= _FEWEST_INSTANTS:
+    if len(states) <= FEWEST_INSTANTS:
         raise ValueError(f"trajectory has {len(states)} instants")
     states = states[:-1]
     return SavedGuess(
         f"the cycle in {path}",
         names,
-        _interpolated(states, np.arange(len(states)) / len(states) - start),
+        along_path(states, np.arange(len(states)) / len(states) - start),
     )
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from birdmb._typing import FloatArray
 from birdmb.cli.outcome import SearchFailed
-from birdmb.cli.results import finite
+from birdmb.cli.results import finite, taken_as_prescribed
 from birdmb.errors import OrbitError, StateError
 from birdmb.orbits import (
     ArgumentError,
@@ -22,7 +22,7 @@ from birdmb.orbits import (
 )
 from birdmb.orbits.coarse import COARSE_NODES
 from birdmb.orbits.collocation_search import search_by_collocation
-from birdmb.orbits.search import most_nodes
+from birdmb.orbits.search import ACCURACY, most_nodes
 
 if TYPE_CHECKING:
     from birdmb.cli.progress import Progress
@@ -38,7 +38,6 @@ if TYPE_CHECKING:
 _FEW_STATES = 6
 _FEW_STARTS = 5
 _ITERATIONS_PER_START = 25
-_ACCURACY = 1e-7  # as `find_limit_cycle` has it
 TRIM = (
     "`birdmb trim TOPOLOGY` looks for a value of the bird with which it flies level, by default of "
     "forearm.roll.offset_deg (--by names another), and such a bird is a good one to begin with"
@@ -80,6 +79,20 @@ def model_of(bird: Bird, name: str, steps_per_beat: int | None) -> RigidModel | 
     from birdmb.models.multibody import MultibodyModel  # noqa: PLC0415
 
     return MultibodyModel(bird, steps_per_beat=steps_per_beat)
+
+
+def announce(model: RigidModel | MultibodyModel, name: str, progress: Progress) -> None:
+    """Say which model is searched, and what it leaves out of the bird."""
+    bird = model.bird
+    progress.line(
+        f"{bird.name}, {name} model: {len(model.state_names)} states, "
+        f"wingbeat of {bird.period:.4g} s"
+    )
+    if held := taken_as_prescribed(model):
+        progress.line(
+            f"The {name} model takes {', '.join(held)} as prescribed: springs and dampers are not "
+            "used."
+        )
 
 
 def deflations_for(model: RigidModel | MultibodyModel) -> int:
@@ -142,7 +155,7 @@ def _by_choice(
                 start,
                 period_guess=None,
                 start_time=0.0,
-                accuracy=_ACCURACY,
+                accuracy=ACCURACY,
                 nodes=None,
                 most_nodes=most_nodes(model, "auto"),
                 callback=progress.iteration,

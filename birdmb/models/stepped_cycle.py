@@ -7,12 +7,12 @@ from typing import cast
 
 import numpy as np
 from scipy.linalg import block_diag
-from scipy.optimize import linear_sum_assignment
 
-from birdmb._typing import ComplexArray, FloatArray
+from birdmb._typing import FloatArray
 from birdmb.errors import StateError
 from birdmb.models.wing_model import WingModel
 from birdmb.orbits import LimitCycle, periodic_multipliers
+from birdmb.orbits.multipliers import paired_distances
 from birdmb.orbits.problem import VariationalModel
 
 # An error that halves when the steps are halved is twice the difference that this makes.
@@ -66,10 +66,10 @@ class SteppedCycle(LimitCycle):
 
         Of a collocated cycle, flown for a beat in as many parts as share the steps of the
         integration; infinite where the flow fails. It holds the integration's error, not that of
-        the cycle alone. Of a shot one, the residual of the search.
+        the cycle alone. Of a shot one, the norm of the closure errors that the search left.
         """
         if self.method == "shooting":
-            return self.residual / float(self.state_scale.max())
+            return self.iterations[-1].residual
         times = self.start_time + self.period * np.arange(_PARTS_FLOWN + 1) / _PARTS_FLOWN
         states = self.trajectory(times).states
         try:
@@ -121,7 +121,7 @@ class SteppedCycle(LimitCycle):
             raise StateError("the flow is not finite beside the orbit.")
         none = np.zeros_like(factors)
         found = periodic_multipliers(factors, none, self.state_scale).multipliers
-        return largest_difference(self.multipliers, found)
+        return float(paired_distances(self.multipliers, found).max())
 
     def _closed_by(self, model: WingModel) -> tuple[FloatArray, FloatArray]:
         """Starts (M, n) of the segments of the orbit that `model` has nearby, and times (M + 1,).
@@ -161,9 +161,3 @@ def _flow_jacobian(
         for h in np.diag(_STEP * scale)
     ]
     return np.column_stack(columns)
-
-
-def largest_difference(one: ComplexArray, other: ComplexArray) -> float:
-    """Largest distance between two spectra (n,), their members paired so that the sum is least."""
-    distance = np.abs(np.subtract.outer(one, other))
-    return float(distance[linear_sum_assignment(distance)].max())

@@ -17,7 +17,14 @@ from birdmb.orbits.errors import ArgumentError, NotSmoothError, require_toleranc
 from birdmb.orbits.problem import HasRates, HasRhs, HasStartingPaths, Model
 from birdmb.orbits.result import FloquetResult
 from birdmb.orbits.sameness import among
-from birdmb.orbits.search import NEAR, SearchMethod, find_limit_cycle, most_nodes
+from birdmb.orbits.search import (
+    ACCURACY,
+    NEAR,
+    TOLERANCE,
+    SearchMethod,
+    find_limit_cycle,
+    most_nodes,
+)
 from birdmb.orbits.shooting_search import period_or_guess
 from birdmb.threads import one_thread
 
@@ -51,8 +58,8 @@ def find_limit_cycles(
     period_guess: float | Sequence[float] | None = None,
     start_time: float = 0.0,
     known: Sequence[LimitCycle] = (),
-    tolerance: float = 1e-9,
-    accuracy: float = 1e-7,
+    tolerance: float = TOLERANCE,
+    accuracy: float = ACCURACY,
     max_iterations: int = 25,
     deflations: int = 12,
     key: Callable[[LimitCycle], Any] | None = None,

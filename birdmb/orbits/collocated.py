@@ -6,12 +6,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
 
-from birdmb._typing import ComplexArray, FloatArray
+from birdmb._typing import FloatArray
 from birdmb.orbits.collocation import Collocated, CollocationEquations, more_nodes
 from birdmb.orbits.linearisation import trivial_mode
-from birdmb.orbits.multipliers import Spectrum, product
+from birdmb.orbits.multipliers import Spectrum, paired_distances, product
 from birdmb.orbits.periodic import periodic_multipliers
 from birdmb.orbits.variational import flow_jacobians
 
@@ -70,7 +69,7 @@ def linearise_collocated(
     if at.equations is not found.equations:
         # Of one orbit at different instants, its own error does not show.
         rough = _linearised(*found.equations.on_nodes(at.equations.nodes, found.u))
-        errors = errors + _distances(at.spectrum.multipliers, rough.spectrum.multipliers)
+        errors = errors + paired_distances(at.spectrum.multipliers, rough.spectrum.multipliers)
     equations, spectrum = at.equations, at.spectrum
     points, period = equations.unpack(at.u)
     scale = equations.rhs.scale
@@ -123,7 +122,7 @@ def _on_more(at: _Linearised) -> tuple[CollocationEquations, FloatArray]:
 
 
 def _errors(spectrum: Spectrum, finer: Spectrum) -> FloatArray:
-    apart = _distances(spectrum.multipliers, finer.multipliers)
+    apart = paired_distances(spectrum.multipliers, finer.multipliers)
     # Of one that happens to be right by chance, the others tell.
     size = np.maximum(np.abs(spectrum.multipliers), np.finfo(float).tiny)
     typical = size * float((apart / np.maximum(size, 1.0)).max())
@@ -133,14 +132,3 @@ def _errors(spectrum: Spectrum, finer: Spectrum) -> FloatArray:
 def _relative(spectrum: Spectrum, errors: FloatArray) -> float:
     """Largest error, relative to multipliers above 1."""
     return float((errors / np.maximum(1.0, np.abs(spectrum.multipliers))).max())
-
-
-def _distances(one: ComplexArray, other: ComplexArray) -> FloatArray:
-    """Distances (n,) of a spectrum's members from another's, paired so that the sum is least."""
-    distance = np.abs(np.subtract.outer(one, other))
-    # Among multipliers of very different size, each by its own.
-    size = np.maximum(np.abs(one)[:, None], np.abs(other)[None, :])
-    with np.errstate(invalid="ignore"):
-        relative = np.nan_to_num(distance / size, nan=0.0)
-    rows, columns = linear_sum_assignment(relative)
-    return np.asarray(distance[rows, columns])

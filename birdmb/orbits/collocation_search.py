@@ -8,7 +8,6 @@ from typing import cast
 
 import numpy as np
 import numpy.typing as npt
-from scipy.interpolate import CubicSpline
 
 from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError, StateError
@@ -37,7 +36,7 @@ from birdmb.orbits.shooting_search import (
     period_or_guess,
     proposal,
 )
-from birdmb.orbits.trigonometric import resampled, without_drift
+from birdmb.orbits.trigonometric import along_path, resampled, without_drift
 from birdmb.threads import one_thread
 
 # Fewer instants do not show a path: it is then flown from them.
@@ -167,11 +166,7 @@ def guessed_path(
     if not np.isfinite(states).all():
         raise ArgumentError("the guess holds values that are not finite.")
     if states.ndim == 2 and len(states) >= FEWEST_INSTANTS:
-        if len(states) % 2:
-            return resampled(states, nodes)
-        closed = np.concatenate([states, states[:1]])
-        grid = np.arange(len(closed)) / len(states)
-        return np.asarray(CubicSpline(grid, closed, bc_type="periodic")(phases))
+        return states if nodes == len(states) else along_path(states, phases)
     return _flown(model, np.atleast_2d(states), start_time, period, phases)
 
 

@@ -19,7 +19,13 @@ from birdmb.orbits.errors import ArgumentError, BranchStopped, SingularJacobianE
 from birdmb.orbits.extended import ExtendedEquations, Family
 from birdmb.orbits.extended_collocation import ExtendedCollocation
 from birdmb.orbits.extended_shooting import ExtendedShooting
-from birdmb.orbits.search import SearchMethod, find_limit_cycle, most_nodes
+from birdmb.orbits.search import (
+    ACCURACY,
+    TOLERANCE,
+    SearchMethod,
+    find_limit_cycle,
+    most_nodes,
+)
 from birdmb.orbits.segments import choose_jacobian
 from birdmb.orbits.tracer import Observables, Steps, Tracer
 from birdmb.orbits.trigonometric import resampled
@@ -36,13 +42,13 @@ def continue_branch(
     parameter_name: str = "parameter",
     period_guess: float | None = None,
     method: SearchMethod = "auto",
-    accuracy: float = 1e-7,
+    accuracy: float = ACCURACY,
     segments: int | None = None,
     start_time: float = 0.0,
     steps: Steps = _DEFAULT_STEPS,
     max_points: int = 200,
     max_bifurcations: int | None = None,
-    tolerance: float = 1e-9,
+    tolerance: float = TOLERANCE,
     jacobian: Literal["auto", "variational", "finite-differences"] = "auto",
     observables: Observables | None = None,
     resume: Branch | None = None,

@@ -74,6 +74,10 @@ class ExtendedEquations(ABC):
         """Unknowns of an orbit with states `points` (M, n)."""
 
     @abstractmethod
+    def states(self, u: FloatArray) -> FloatArray:
+        """States (M, n) of the unknowns, in their own units."""
+
+    @abstractmethod
     def from_point(self, point: BranchPoint) -> tuple[Self, FloatArray, FloatArray]:
         """Equations that suit a step from a point, its unknowns there, and its tangent."""
 

@@ -72,6 +72,11 @@ class ExtendedCollocation(ExtendedEquations):
         orbit = self.orbit(parameter)
         return np.append(orbit.pack(points / self.scale, period), parameter / self.unit)
 
+    def states(self, u: FloatArray) -> FloatArray:
+        """States (N, n) of the unknowns at the nodes, in their own units."""
+        points, _ = self.orbit(self.parameter(u)).unpack(u[:-1])
+        return points * self.scale
+
     def with_sound_derivatives(self, u: FloatArray) -> Self:
         """The same equations, by differences if these contradict the model's derivatives at `u`."""
         gap = self.orbit(self.parameter(u)).derivative_gap(u[:-1])
@@ -165,8 +170,7 @@ class ExtendedCollocation(ExtendedEquations):
                 found.state_error,
                 found.iterations,
             ),
-            # Points of a branch are the nodes.
-            accuracy=np.inf,
+            accuracy=self.accuracy,
             derivative_gap=gap,
             rate_jacobians=rate_jacobians,
         )

@@ -48,6 +48,10 @@ class ExtendedShooting(ExtendedEquations):
         """Unknowns of an orbit with states `points` (M, n) at the starts of its segments."""
         return np.append(self.orbit(parameter).pack(points, period), parameter / self.unit)
 
+    def states(self, u: FloatArray) -> FloatArray:
+        """States (M, n) of the unknowns at the starts of the segments, in their own units."""
+        return self.orbit(self.parameter(u)).unpack(u[:-1])[0]
+
     def from_point(self, point: BranchPoint) -> tuple[Self, FloatArray, FloatArray]:
         """These equations, unknowns and tangent of a point.
 

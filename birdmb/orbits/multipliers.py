@@ -11,6 +11,7 @@ from typing import Literal, Protocol, cast
 
 import numpy as np
 import scipy.linalg
+from scipy.optimize import linear_sum_assignment
 
 from birdmb._typing import ComplexArray, FloatArray
 
@@ -146,6 +147,20 @@ def product_multipliers(factors: FloatArray, errors: FloatArray, scale: FloatArr
         for k in range(1, m):
             along[k] = scaled[k - 1] @ along[k - 1] / values ** (1 / m)
     return ordered_spectrum(values, value_errors, left, along, scale)
+
+
+def paired_distances(one: ComplexArray, other: ComplexArray) -> FloatArray:
+    """Distances (n,) of a spectrum's multipliers from those of another that they are paired with.
+
+    Paired so that the sum of the relative distances is least: multipliers may differ in size by
+    many orders of magnitude.
+    """
+    distance = np.abs(np.subtract.outer(one, other))
+    size = np.maximum(np.abs(one)[:, None], np.abs(other)[None, :])
+    with np.errstate(invalid="ignore"):
+        relative = np.nan_to_num(distance / size, nan=0.0)
+    rows, columns = linear_sum_assignment(relative)
+    return np.asarray(distance[rows, columns])
 
 
 def verdict(multipliers: ComplexArray, errors: FloatArray) -> Stability:

@@ -164,7 +164,7 @@ class Tracer:
         point = BranchPoint(
             parameter=equations.parameter(u),
             period=cycle.period,
-            points=cycle.points,
+            points=equations.states(u),
             residual=cycle.residual,
             multipliers=cycle.multipliers,
             multiplier_errors=cycle.multiplier_errors,

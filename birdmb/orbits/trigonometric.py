@@ -9,6 +9,7 @@ from __future__ import annotations
 import functools
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from birdmb._typing import FloatArray
 
@@ -44,6 +45,18 @@ def resampled(values: FloatArray, nodes: int) -> FloatArray:
     if nodes == len(values):
         return values
     return interpolated(values, np.arange(nodes) / nodes)
+
+
+def along_path(values: FloatArray, phases: FloatArray) -> FloatArray:
+    """Values (P, ...) at `phases` (P,) of a closed path through `values` (K, ...) at even instants.
+
+    Through an even number, which has no interpolant of its own, by periodic cubic splines.
+    """
+    if len(values) % 2:
+        return interpolated(values, phases)
+    grid = np.arange(len(values) + 1) / len(values)
+    closed = np.concatenate([values, values[:1]])
+    return np.asarray(CubicSpline(grid, closed, bc_type="periodic")(np.mod(phases, 1.0)))
 
 
 def between_nodes(values: FloatArray, parts: FloatArray) -> FloatArray:

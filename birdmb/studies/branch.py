@@ -23,7 +23,7 @@ from birdmb.orbits import (
     Steps,
     continue_branch,
 )
-from birdmb.orbits.search import SearchMethod
+from birdmb.orbits.search import TOLERANCE, SearchMethod
 from birdmb.studies.relevance import check_relevant
 from birdmb.studies.validity import Validity, assess_validity
 from birdmb.topology import Bird
@@ -59,7 +59,7 @@ def bird_branch(
     steps: Steps = _DEFAULT_STEPS,
     max_points: int = 200,
     max_bifurcations: int | None = None,
-    tolerance: float = 1e-9,
+    tolerance: float = TOLERANCE,
     resume: Branch | None = None,
     store: str | Path | None = None,
     executor: Executor | None = None,

@@ -5,9 +5,11 @@ from functools import partial
 from pathlib import Path
 
 import birdmb
+from birdmb.studies.sweeps import sweep
 
 TOPOLOGIES = Path(__file__).parents[2] / "topologies"
 AMPLITUDE, MASS = "shoulder.flap.amplitude_deg", "body.mass"
+SMALL = {AMPLITUDE: [42.0, 40.0], MASS: [1.2, 1.3]}
 GRID = {AMPLITUDE: [42.0, 40.0, -400.0, 38.0], MASS: [1.1, 1.15, 1.2, 1.25, 1.3, 1.35]}
 POINTS = 24
 IMPOSSIBLE = -400.0
@@ -47,3 +49,8 @@ class Inline(Executor):
         except birdmb.BirdmbError as error:
             future.set_exception(error)
         return future
+
+
+def small_sweep(store, **options):
+    options = {"executor": Inline(), "model": QUICK} | options
+    return sweep(coarse_bird(), SMALL, store=store, **options)

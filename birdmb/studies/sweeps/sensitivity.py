@@ -60,15 +60,12 @@ def sensitivities(
     point = np.array([trimmed[name] for name in names])
     targets = {} if trimming is None else trimming.targets
 
-    here = values
-
-    def models(values: _Values) -> KeptModels:
-
+    def models(there: _Values) -> KeptModels:
         def model_at(point: FloatArray) -> WingModel:
             by_name = dict(zip(names, point.tolist(), strict=True))
-            if values is here and (by_name == trimmed or not names):
+            if there == values and by_name == trimmed:
                 return cast("WingModel", cycle.model)
-            return cast("WingModel", model(bird.with_values({**values, **by_name})))
+            return cast("WingModel", model(bird.with_values({**there, **by_name})))
 
         return KeptModels(model_at)
 
