@@ -17,6 +17,8 @@ from birdmb.cli.options import (
     MethodChoice,
     ModelChoice,
     ModelName,
+    MotionChoice,
+    MotionOption,
     Segments,
     StepsPerBeat,
     Tolerance,
@@ -85,12 +87,15 @@ def cycle(
     topology: Topology,
     model: Annotated[
         ModelName,
+        MotionChoice,
+        MotionOption,
         typer.Option(
             metavar="MODEL",
             help="multibody: body and wings with mass, joints prescribed or compliant (Exudyn). "
             "rigid: massless wings, all joints prescribed.",
         ),
     ] = ModelName.MULTIBODY,
+    motion: MotionOption = MotionChoice.PLANAR,
     assignments: Assignments = None,
     out: Annotated[
         Path | None,
@@ -143,6 +148,7 @@ def cycle(
             bird,
             Search(
                 model=model.value,
+                motion=motion.value,
                 segments=segments,
                 tolerance=tolerance,
                 max_iterations=max_iterations,

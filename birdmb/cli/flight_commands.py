@@ -11,6 +11,8 @@ from birdmb.cli.options import (
     Json,
     ModelChoice,
     ModelName,
+    MotionChoice,
+    MotionOption,
     Speed,
     Topology,
     Workers,
@@ -32,6 +34,7 @@ commands = typer.Typer()
 def flights(
     topology: Topology,
     model: ModelChoice = ModelName.MULTIBODY,
+    motion: MotionOption = MotionChoice.PLANAR,
     assignments: Assignments = None,
     out: Annotated[
         Path | None,
@@ -56,7 +59,7 @@ def flights(
 
         from birdmb.cli.flights import run  # noqa: PLC0415 - not before the bird is sound
 
-        run(bird, model.value, out=out, as_json=json)
+        run(bird, model.value, motion.value, out=out, as_json=json)
 
 
 @commands.command(

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.cli.outcome import SearchFailed
+from birdmb.cli.outcome import InputError, SearchFailed
 from birdmb.cli.results import finite, taken_as_prescribed
 from birdmb.errors import OrbitError, StateError
 from birdmb.orbits import (
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from birdmb.cli.progress import Progress
     from birdmb.cli.saved_guess import SavedGuess
     from birdmb.models import FlightCycle
+    from birdmb.models.motion import MotionName
     from birdmb.models.multibody import MultibodyModel
     from birdmb.models.rigid import RigidModel
     from birdmb.orbits.newton import Damping
@@ -49,6 +50,7 @@ class Search:
     """What the options say about model and search; see `find_limit_cycle`."""
 
     model: str
+    motion: MotionName
     segments: int | None
     tolerance: float
     max_iterations: int
@@ -70,12 +72,24 @@ class Search:
         }
 
 
-def model_of(bird: Bird, name: str, steps_per_beat: int | None) -> RigidModel | MultibodyModel:
-    """The model of a bird that the option --model names."""
+def model_of(
+    bird: Bird, name: str, motion: MotionName, steps_per_beat: int | None
+) -> RigidModel | MultibodyModel:
+    """The model of a bird that the options --model and --motion name.
+
+    Raises:
+        InputError: the model has no such motion.
+        TopologyError: the bird lacks what the motion needs.
+    """
     if name == "rigid":
         from birdmb.models.rigid import RigidModel  # noqa: PLC0415
 
-        return RigidModel(bird, steps_per_beat=steps_per_beat)
+        return RigidModel(bird, motion=motion, steps_per_beat=steps_per_beat)
+    if motion != "planar":
+        raise InputError(
+            f"--motion {motion} is of the rigid model: the multibody one flies in its plane of "
+            "symmetry alone. Add --model rigid."
+        )
     from birdmb.models.multibody import MultibodyModel  # noqa: PLC0415
 
     return MultibodyModel(bird, steps_per_beat=steps_per_beat)
