@@ -62,8 +62,8 @@ def plane_wing(elements):
 
 
 # Of a vortex lattice (AVL, 12 equal strips a half wing), stability axes at 1 degree; and by how
-# much a lifting line may differ. It has no bound vortices that act on each other, which makes it stiffer
-# (more so for the short waves along the span of rolling).
+# much a lifting line may differ. It has no bound vortices that act on each other, which makes it
+# stiffer, the more so for the short waves along the span that rolling makes.
 LATTICE = {"CL_alpha": (4.638, 0.05), "Cl_p": (-0.5187, 0.10), "Cl_r": (0.06424, 0.05)}
 
 
@@ -92,7 +92,8 @@ def test_a_plane_wing_against_a_vortex_lattice():
     }
     for name, (lattice, relative) in LATTICE.items():
         assert found[name] == pytest.approx(lattice, rel=relative), name
-    assert coefficients()[0] == pytest.approx(0.2433, rel=0.05)  # the area's mean of its section lift
+    # The mean of its section lift over the area.
+    assert coefficients()[0] == pytest.approx(0.2433, rel=0.05)
 
 
 def test_mirrored_motions_have_mirrored_loads():
