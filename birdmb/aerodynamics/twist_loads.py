@@ -44,37 +44,25 @@ def mirrored(vector: FloatArray) -> FloatArray:
 
 
 @kernel
-def _write_wind(
-    position: FloatArray, velocity: FloatArray, twist: FloatArray, directions: IntArray,
-    wind: FloatArray,
-) -> None:  # fmt: skip
-    x, y, z = position
-    u, v, w, p, q, r = twist
-    wind[0, 0] = -u - q * z + r * y - velocity[0]
-    wind[1, 0] = -v - r * x + p * z - velocity[1]
-    wind[2, 0] = -w - p * y + q * x - velocity[2]
-    for m in range(directions.size):
-        component = directions[m]
-        wind[:, m + 1] = 0.0
-        if component < 3:
-            wind[component, m + 1] = -1.0
-        elif component == 3:
-            wind[1, m + 1], wind[2, m + 1] = z, -y
-        elif component == 4:
-            wind[0, m + 1], wind[2, m + 1] = -z, x
-        else:
-            wind[0, m + 1], wind[1, m + 1] = y, -x
-
-
-@kernel
 def wing_flow(elements: Elements, twist: FloatArray, directions: IntArray) -> Flow:
     """Wind and circulation without downwash of the elements of the right wing."""
     n, columns = elements.chord.size, directions.size + 1
     wind, bound = np.empty((n, 3, columns)), np.empty((n, columns))
     speed, alpha = np.empty(n), np.empty(n)
+    # The unit twists of the directions: a table costs less than choosing at each element.
+    units = np.zeros((columns, 6))
+    units[0] = twist
+    for m in range(directions.size):
+        units[m + 1, directions[m]] = 1.0
     for e in range(n):
-        air = wind[e]
-        _write_wind(elements.position[e], elements.velocity[e], twist, directions, air)
+        air, moving = wind[e], elements.velocity[e]
+        x, y, z = elements.position[e, 0], elements.position[e, 1], elements.position[e, 2]
+        for m in range(columns):
+            air[0, m] = -units[m, 0] - units[m, 4] * z + units[m, 5] * y
+            air[1, m] = -units[m, 1] - units[m, 5] * x + units[m, 3] * z
+            air[2, m] = -units[m, 2] - units[m, 3] * y + units[m, 4] * x
+        for i in range(3):
+            air[i, 0] -= moving[i]
         c, up, t = elements.chord_direction[e], elements.normal[e], elements.span_direction[e]
         along = air[0, 0] * t[0] + air[1, 0] * t[1] + air[2, 0] * t[2]
         px, py, pz = air[0, 0] - along * t[0], air[1, 0] - along * t[1], air[2, 0] - along * t[2]

@@ -30,20 +30,31 @@ class RigidBody(NamedTuple):
 
 
 @kernel
-def _attitude(x: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Axes of the heading along those of the body, (3, 3), and their slopes by phi and theta."""
-    cr, sr, c, s = np.cos(x[_PHI]), np.sin(x[_PHI]), np.cos(x[_THETA]), np.sin(x[_THETA])
-    axes = np.array([[c, 0.0, -s], [s * sr, cr, c * sr], [s * cr, -sr, c * cr]])
-    by_phi = np.array([[0.0, 0.0, 0.0], [s * cr, -sr, c * cr], [-s * sr, -cr, -c * sr]])
-    by_theta = np.array([[-s, 0.0, -c], [c * sr, 0.0, -s * sr], [c * cr, 0.0, -s * cr]])
-    return axes, by_phi, by_theta
+def _times(matrix: FloatArray, x: float, y: float, z: float) -> tuple[float, float, float]:
+    # Numbers, not arrays: for products as small as these making arrays would take most of the time.
+    return (
+        matrix[0, 0] * x + matrix[0, 1] * y + matrix[0, 2] * z,
+        matrix[1, 0] * x + matrix[1, 1] * y + matrix[1, 2] * z,
+        matrix[2, 0] * x + matrix[2, 1] * y + matrix[2, 2] * z,
+    )
 
 
 @kernel
-def _crossing(vector: FloatArray) -> FloatArray:
-    """Matrix (3, 3) of the product vector x ..."""
-    x, y, z = vector
-    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+def _turn(phi: float, theta: float, turn: FloatArray) -> None:
+    """Write the axes of the heading along those of the body, (3, 3), and their slopes.
+
+    `turn` (3, 3, 3): the axes, their derivatives with respect to phi, and to theta.
+    """
+    cr, sr, c, s = np.cos(phi), np.sin(phi), np.cos(theta), np.sin(theta)
+    turn[0, 0, 0], turn[0, 0, 1], turn[0, 0, 2] = c, 0.0, -s
+    turn[0, 1, 0], turn[0, 1, 1], turn[0, 1, 2] = s * sr, cr, c * sr
+    turn[0, 2, 0], turn[0, 2, 1], turn[0, 2, 2] = s * cr, -sr, c * cr
+    turn[1, 0, 0], turn[1, 0, 1], turn[1, 0, 2] = 0.0, 0.0, 0.0
+    turn[1, 1, 0], turn[1, 1, 1], turn[1, 1, 2] = s * cr, -sr, c * cr
+    turn[1, 2, 0], turn[1, 2, 1], turn[1, 2, 2] = -s * sr, -cr, -c * sr
+    turn[2, 0, 0], turn[2, 0, 1], turn[2, 0, 2] = -s, 0.0, -c
+    turn[2, 1, 0], turn[2, 1, 1], turn[2, 1, 2] = c * sr, 0.0, -s * sr
+    turn[2, 2, 0], turn[2, 2, 1], turn[2, 2, 2] = c * cr, 0.0, -s * cr
 
 
 @kernel
@@ -60,47 +71,83 @@ def rigid_rates(
 
     `air` (3,) m/s is the velocity of the air along the heading, to the right of it and down.
     """
-    x = np.zeros(_SIZE)
-    x[body.states] = states
-    axes, by_phi, by_theta = _attitude(x)
+    x, n = np.zeros(_SIZE), states.size
+    for i in range(n):
+        x[body.states[i]] = states[i]
+    u, v, w, p, q, r, phi, theta = x
+    turn = np.empty((3, 3, 3))
+    _turn(phi, theta, turn)
     twist = x[:6].copy()
-    twist[:3] -= axes @ air
+    wx, wy, wz = _times(turn[0], air[0], air[1], air[2])
+    twist[0], twist[1], twist[2] = u - wx, v - wy, w - wz
     if body.directions.size == 6:
         found = free_loads(wing, odd, k, frame, twist, body.directions)
     else:
         found = symmetric_loads(wing, k, frame, twist, body.directions)
-    by_twist = np.zeros((6, _SIZE))
-    by_twist[:, body.directions] = found[:, 1:]
-    # As the body turns, the air's velocity turns in its axes.
-    by_twist[:, _PHI] = -by_twist[:, :3] @ (by_phi @ air)
-    by_twist[:, _THETA] = -by_twist[:, :3] @ (by_theta @ air)
 
-    velocity, spin = x[:3].copy(), x[3:6].copy()
-    turning = _crossing(spin)
-    momentum = body.inertia @ spin
-    weight = np.array([0.0, 0.0, body.gravity])
+    # The wrench less what inertia takes of it, and its derivatives with respect to all states.
+    wrench, slopes = found[:, 0].copy(), np.zeros((6, _SIZE))
+    for m in range(body.directions.size):
+        for i in range(6):
+            slopes[i, body.directions[m]] = found[i, m + 1]
+    for a in range(2):
+        # As the body turns, so do the air's velocity and the weight in its axes.
+        wx, wy, wz = _times(turn[a + 1], air[0], air[1], air[2])
+        for i in range(6):
+            slopes[i, _PHI + a] = -slopes[i, 0] * wx - slopes[i, 1] * wy - slopes[i, 2] * wz
+        for i in range(3):
+            slopes[i, _PHI + a] += body.mass * body.gravity * turn[a + 1, i, 2]
+    for i in range(3):
+        wrench[i] += body.mass * body.gravity * turn[0, i, 2]
+    wrench[0] -= body.mass * (q * w - r * v)
+    wrench[1] -= body.mass * (r * u - p * w)
+    wrench[2] -= body.mass * (p * v - q * u)
+    for i, j, spin, velocity in (
+        (0, 1, r, w), (1, 2, p, u), (2, 0, q, v)
+    ):  # fmt: skip
+        # Of - spin x velocity, the entries above and below the diagonal.
+        slopes[i, j] += body.mass * spin
+        slopes[j, i] -= body.mass * spin
+        slopes[i, 3 + j] -= body.mass * velocity
+        slopes[j, 3 + i] += body.mass * velocity
+    hx, hy, hz = _times(body.inertia, p, q, r)
+    wrench[3] -= q * hz - r * hy
+    wrench[4] -= r * hx - p * hz
+    wrench[5] -= p * hy - q * hx
+    for m in range(3):
+        ax, ay, az = body.inertia[0, m], body.inertia[1, m], body.inertia[2, m]
+        slopes[3, 3 + m] -= q * az - r * ay
+        slopes[4, 3 + m] -= r * ax - p * az
+        slopes[5, 3 + m] -= p * ay - q * ax
+    for i, j, h in ((3, 4, hz), (4, 5, hx), (5, 3, hy)):
+        slopes[i, j] -= h
+        slopes[j, i] += h
+
     rates, jacobian = np.zeros(_SIZE), np.zeros((_SIZE, _SIZE))
-    rates[:3] = found[:3, 0] / body.mass + axes @ weight - turning @ velocity
-    rates[3:6] = body.inverse @ (found[3:, 0] - turning @ momentum)
-    jacobian[:3] = by_twist[:3] / body.mass
-    jacobian[:3, :3] -= turning
-    jacobian[:3, 3:6] += _crossing(velocity)
-    jacobian[:3, _PHI] += by_phi @ weight
-    jacobian[:3, _THETA] += by_theta @ weight
-    by_twist[3:, 3:6] += _crossing(momentum) - turning @ body.inertia
-    jacobian[3:6] = body.inverse @ by_twist[3:].copy()
-
-    _, q, r = spin
-    cr, sr, slope = np.cos(x[_PHI]), np.sin(x[_PHI]), np.tan(x[_THETA])
+    for m in range(_SIZE):
+        for i in range(3):
+            jacobian[i, m] = slopes[i, m] / body.mass
+        jacobian[3, m], jacobian[4, m], jacobian[5, m] = _times(
+            body.inverse, slopes[3, m], slopes[4, m], slopes[5, m]
+        )
+    for i in range(3):
+        rates[i] = wrench[i] / body.mass
+    rates[3], rates[4], rates[5] = _times(body.inverse, wrench[3], wrench[4], wrench[5])
+    cr, sr, slope = np.cos(phi), np.sin(phi), np.tan(theta)
     yawing = q * sr + r * cr
-    rates[_PHI] = spin[0] + slope * yawing
+    rates[_PHI] = p + slope * yawing
     rates[_THETA] = q * cr - r * sr
     jacobian[_PHI, 3], jacobian[_PHI, 4], jacobian[_PHI, 5] = 1.0, slope * sr, slope * cr
     jacobian[_PHI, _PHI] = slope * rates[_THETA]
     jacobian[_PHI, _THETA] = (1.0 + slope * slope) * yawing
     jacobian[_THETA, 4], jacobian[_THETA, 5] = cr, -sr
     jacobian[_THETA, _PHI] = -yawing
-    return rates[body.states], jacobian[body.states][:, body.states]
+    own_rates, own_jacobian = np.empty(n), np.empty((n, n))
+    for i in range(n):
+        own_rates[i] = rates[body.states[i]]
+        for j in range(n):
+            own_jacobian[i, j] = jacobian[body.states[i], body.states[j]]
+    return own_rates, own_jacobian
 
 
 @kernel
