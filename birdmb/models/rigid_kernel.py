@@ -74,38 +74,65 @@ def rigid_rates(
     x, n = np.zeros(_SIZE), states.size
     for i in range(n):
         x[body.states[i]] = states[i]
-    u, v, w, p, q, r, phi, theta = x
     turn = np.empty((3, 3, 3))
-    _turn(phi, theta, turn)
+    _turn(x[_PHI], x[_THETA], turn)
     twist = x[:6].copy()
     wx, wy, wz = _times(turn[0], air[0], air[1], air[2])
-    twist[0], twist[1], twist[2] = u - wx, v - wy, w - wz
+    twist[0], twist[1], twist[2] = twist[0] - wx, twist[1] - wy, twist[2] - wz
     if body.directions.size == 6:
         found = free_loads(wing, odd, k, frame, twist, body.directions)
     else:
         found = symmetric_loads(wing, k, frame, twist, body.directions)
 
-    # The wrench less what inertia takes of it, and its derivatives with respect to all states.
     wrench, slopes = found[:, 0].copy(), np.zeros((6, _SIZE))
     for m in range(body.directions.size):
         for i in range(6):
             slopes[i, body.directions[m]] = found[i, m + 1]
     for a in range(2):
-        # As the body turns, so do the air's velocity and the weight in its axes.
+        # As the body turns, the air's velocity turns in its axes.
         wx, wy, wz = _times(turn[a + 1], air[0], air[1], air[2])
         for i in range(6):
             slopes[i, _PHI + a] = -slopes[i, 0] * wx - slopes[i, 1] * wy - slopes[i, 2] * wz
-        for i in range(3):
-            slopes[i, _PHI + a] += body.mass * body.gravity * turn[a + 1, i, 2]
+    _add_weight(body, turn, wrench, slopes)
+    _take_inertia(body, x, wrench, slopes)
+
+    rates, jacobian = np.zeros(_SIZE), np.zeros((_SIZE, _SIZE))
     for i in range(3):
-        wrench[i] += body.mass * body.gravity * turn[0, i, 2]
+        rates[i] = wrench[i] / body.mass
+    rates[3], rates[4], rates[5] = _times(body.inverse, wrench[3], wrench[4], wrench[5])
+    for m in range(_SIZE):
+        for i in range(3):
+            jacobian[i, m] = slopes[i, m] / body.mass
+        jacobian[3, m], jacobian[4, m], jacobian[5, m] = _times(
+            body.inverse, slopes[3, m], slopes[4, m], slopes[5, m]
+        )
+    _write_attitude(x, rates, jacobian)
+    own_rates, own_jacobian = np.empty(n), np.empty((n, n))
+    for i in range(n):
+        own_rates[i] = rates[body.states[i]]
+        for j in range(n):
+            own_jacobian[i, j] = jacobian[body.states[i], body.states[j]]
+    return own_rates, own_jacobian
+
+
+@kernel
+def _add_weight(body: RigidBody, turn: FloatArray, wrench: FloatArray, slopes: FloatArray) -> None:
+    """Add the weight to a wrench (6,) and its derivatives (6, 8) with respect to the states."""
+    weight = body.mass * body.gravity
+    for i in range(3):
+        wrench[i] += weight * turn[0, i, 2]
+        slopes[i, _PHI] += weight * turn[1, i, 2]
+        slopes[i, _THETA] += weight * turn[2, i, 2]
+
+
+@kernel
+def _take_inertia(body: RigidBody, x: FloatArray, wrench: FloatArray, slopes: FloatArray) -> None:
+    """Take off what turning axes need at steady components: m omega x V and omega x I omega."""
+    u, v, w, p, q, r = x[:6]
     wrench[0] -= body.mass * (q * w - r * v)
     wrench[1] -= body.mass * (r * u - p * w)
     wrench[2] -= body.mass * (p * v - q * u)
-    for i, j, spin, velocity in (
-        (0, 1, r, w), (1, 2, p, u), (2, 0, q, v)
-    ):  # fmt: skip
-        # Of - spin x velocity, the entries above and below the diagonal.
+    for i, j, spin, velocity in ((0, 1, r, w), (1, 2, p, u), (2, 0, q, v)):
         slopes[i, j] += body.mass * spin
         slopes[j, i] -= body.mass * spin
         slopes[i, 3 + j] -= body.mass * velocity
@@ -119,20 +146,15 @@ def rigid_rates(
         slopes[3, 3 + m] -= q * az - r * ay
         slopes[4, 3 + m] -= r * ax - p * az
         slopes[5, 3 + m] -= p * ay - q * ax
-    for i, j, h in ((3, 4, hz), (4, 5, hx), (5, 3, hy)):
-        slopes[i, j] -= h
-        slopes[j, i] += h
+    for i, j, momentum in ((3, 4, hz), (4, 5, hx), (5, 3, hy)):
+        slopes[i, j] -= momentum
+        slopes[j, i] += momentum
 
-    rates, jacobian = np.zeros(_SIZE), np.zeros((_SIZE, _SIZE))
-    for m in range(_SIZE):
-        for i in range(3):
-            jacobian[i, m] = slopes[i, m] / body.mass
-        jacobian[3, m], jacobian[4, m], jacobian[5, m] = _times(
-            body.inverse, slopes[3, m], slopes[4, m], slopes[5, m]
-        )
-    for i in range(3):
-        rates[i] = wrench[i] / body.mass
-    rates[3], rates[4], rates[5] = _times(body.inverse, wrench[3], wrench[4], wrench[5])
+
+@kernel
+def _write_attitude(x: FloatArray, rates: FloatArray, jacobian: FloatArray) -> None:
+    """Write the rates of phi and theta and their derivatives with respect to the states (8,)."""
+    p, q, r, phi, theta = x[3:]
     cr, sr, slope = np.cos(phi), np.sin(phi), np.tan(theta)
     yawing = q * sr + r * cr
     rates[_PHI] = p + slope * yawing
@@ -142,12 +164,6 @@ def rigid_rates(
     jacobian[_PHI, _THETA] = (1.0 + slope * slope) * yawing
     jacobian[_THETA, 4], jacobian[_THETA, 5] = cr, -sr
     jacobian[_THETA, _PHI] = -yawing
-    own_rates, own_jacobian = np.empty(n), np.empty((n, n))
-    for i in range(n):
-        own_rates[i] = rates[body.states[i]]
-        for j in range(n):
-            own_jacobian[i, j] = jacobian[body.states[i], body.states[j]]
-    return own_rates, own_jacobian
 
 
 @kernel
