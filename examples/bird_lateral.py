@@ -1,0 +1,130 @@
+"""Is a bird without a fin laterally stable? The modes of the ibis in space, and what moves them.
+
+`python examples/bird_lateral.py [DIR]` prints the tables of docs/lateral.md and draws its picture
+into DIR (default results/).
+"""
+
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+from rich.console import Console
+from rich.table import Table
+
+import birdmb
+from birdmb.models import FlightMode
+
+TOPOLOGIES = Path(__file__).parent.parent / "topologies"
+MODES = ("roll", "spiral", "Dutch roll")
+# Each by itself, from the tailed ibis in flapping flight.
+VARIATIONS: dict[str, Mapping[str, float]] = {
+    "as it is": {},
+    "flap offset + 5 deg (dihedral)": {"shoulder.flap.offset_deg": 5.0},
+    "flap offset - 5 deg": {"shoulder.flap.offset_deg": -5.0},
+    "flap amplitude 30 deg": {"shoulder.flap.amplitude_deg": 30.0},
+    "sweep offset 5 deg further aft": {"shoulder.sweep.offset_deg": -19.5},
+    "sweep offset 5 deg less": {"shoulder.sweep.offset_deg": -9.5},
+    "tail furled": {"tail.opening_deg": 0.0},
+    "tail opened to 60 deg": {"tail.opening_deg": 60.0},
+    "hand 20 % longer": {"segments.hand.length": 1.2 * 0.084},
+    "I_xx twice as large": {"body.inertia_xx": 0.04},
+    "I_zz by a fifth smaller": {"body.inertia_zz": 0.088},
+    "no drag of body and profile": {"drag.body": False, "drag.profile_coefficient": 0.0},
+}
+
+
+def flown(bird: birdmb.Bird) -> birdmb.FlightCycle | None:
+    """The bird's limit cycle in space; `None` if there is none."""
+    try:
+        cycle = birdmb.find_limit_cycle(birdmb.RigidModel(bird, motion="free"))
+    except birdmb.BirdmbError:
+        return None
+    return cycle if isinstance(cycle, birdmb.FlightCycle) else None
+
+
+def beating(bird: birdmb.Bird, part: float) -> birdmb.Bird:
+    """The bird with this part of all amplitudes; 0 holds its wings at the drivers' means."""
+    return bird.with_values({f"{j.name}.amplitude": part * j.amplitude for j in bird.joints})
+
+
+def described(mode: FlightMode, period: float) -> str:
+    """Multiplier, and the time in which the mode doubles or halves."""
+    size = abs(mode.multiplier)
+    does = "doubles" if size > 1 else "halves"
+    turn = abs(np.angle(mode.multiplier)) / (2 * np.pi * period)
+    swings = f", {turn:.2f} Hz" if mode.multiplier.imag else ""
+    return f"{size:.4f} ({does} in {mode.doubling_time:.3g} s{swings})"
+
+
+def lateral(cycle: birdmb.FlightCycle) -> list[str]:
+    """Cells of a table: roll, spiral, Dutch roll."""
+    found = {mode.name: mode for mode in cycle.flight_modes if mode.plane == "lateral"}
+    return [described(found[n], cycle.period) if n in found else "" for n in MODES]
+
+
+def row(table: Table, name: str, bird: birdmb.Bird) -> None:
+    """One flight."""
+    cycle = flown(bird)
+    if cycle is None:
+        table.add_row(name, "no flight")
+        return
+    flight = f"{cycle.mean_speed:.2f}", f"{cycle.mean_climb_rate:+.2f}"
+    table.add_row(name, *flight, *lateral(cycle))
+
+
+def columns(title: str) -> Table:
+    """An empty table."""
+    return Table("flight", "m/s", "climb", *MODES, title=title)
+
+
+def picture(bird: birdmb.Bird) -> Figure:
+    """Moduli of the slow lateral multipliers from gliding to flapping."""
+    parts = np.linspace(0.0, 1.0, 21)
+    figure = Figure(figsize=(7, 4), layout="constrained")
+    axes = figure.subplots()
+    cycles = [flown(beating(bird, part)) for part in parts]
+    for name, colour in zip(MODES[1:], ("C3", "C0"), strict=True):
+        moduli = []
+        for cycle in cycles:
+            modes = () if cycle is None else cycle.flight_modes
+            moduli.append(next((abs(m.multiplier) for m in modes if m.name == name), np.nan))
+        axes.plot(parts, moduli, color=colour, label=name)
+    axes.axhline(1.0, color="0.6", lw=0.8)
+    axes.set_xlabel("part of the wingbeat's amplitudes (0: gliding)")
+    axes.set_ylabel("|Λ| per beat of 0.25 s")
+    axes.legend()
+    return figure
+
+
+def main() -> None:
+    """Print the tables, and draw the picture."""
+    out = Path(sys.argv[1] if len(sys.argv) > 1 else "results")
+    out.mkdir(parents=True, exist_ok=True)
+    console = Console(width=180)
+    tailed = birdmb.load_bird(TOPOLOGIES / "ibis_tail.toml")
+    furled = tailed.with_values({"tail.opening_deg": 0.0})
+    table = columns("Flapping and gliding, |multiplier| per beat of 0.25 s")
+    for name, bird in (
+        ("thesis's bird, chapter 5: no tail, no drag", birdmb.load_bird(TOPOLOGIES / "ibis.toml")),
+        ("chapter 6, tail furled", furled),
+        ("chapter 6, tail spread to 40 deg", tailed),
+        ("the same, gliding, furled", beating(furled, 0.0)),
+        ("the same, gliding, spread", beating(tailed, 0.0)),
+    ):
+        row(table, name, bird)
+    console.print(table)
+    table = columns("Chapter 6's bird, flapping, tail spread: one value changed")
+    for name, values in VARIATIONS.items():
+        row(table, name, tailed.with_values(values))
+    console.print(table)
+    table = columns("The same, by the number of elements a wing")
+    for elements in (16, 32, 64):
+        row(table, str(elements), tailed.with_values({"wing.discretisation": elements}))
+    console.print(table)
+    picture(tailed).savefig(out / "lateral_modes.png", dpi=120)
+
+
+if __name__ == "__main__":
+    main()
