@@ -7,6 +7,7 @@ import numpy as np
 from birdmb._kernels import kernel
 from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.body_drag import BodyDrag, body_drag, body_drag_force
+from birdmb.aerodynamics.slender_body import SlenderBody, slender_body, slender_body_loads
 from birdmb.aerodynamics.tail import TailSurface, tail_force, tail_surface
 from birdmb.topology import Bird
 
@@ -18,6 +19,7 @@ class Airframe(NamedTuple):
     profile: float  # drag coefficient of the wing's sections
     tail: TailSurface
     body: BodyDrag
+    slender: SlenderBody
 
 
 def airframe(bird: Bird) -> Airframe:
@@ -27,6 +29,7 @@ def airframe(bird: Bird) -> Airframe:
         profile=bird.drag.profile_coefficient,
         tail=tail_surface(bird),
         body=body_drag(bird),
+        slender=slender_body(bird),
     )
 
 
@@ -83,13 +86,20 @@ def airframe_loads(
             total[3, m] = -tail.z * fy
             total[4, m] = tail.z * fx - tail.x * fz
             total[5, m] = tail.x * fy
-    if frame.body.factor > 0.0:
-        drag = body_drag_force(frame.body, twist[:3])
-        total[:3, 0] += drag[:, 0]
-        for m in range(directions.size):
-            if directions[m] < 3:
-                total[:3, m + 1] += drag[:, directions[m] + 1]
+    by_velocity = body_loads(frame, twist[:3])
+    total[:, 0] += by_velocity[:, 0]
+    for m in range(directions.size):
+        if directions[m] < 3:
+            total[:, m + 1] += by_velocity[:, directions[m] + 1]
     return total
+
+
+@kernel
+def body_loads(frame: Airframe, velocity: FloatArray) -> FloatArray:
+    """Wrench (6, 4) of the body at a velocity (3,) m/s: value, derivatives by the velocity."""
+    loads = slender_body_loads(frame.slender, frame.density, velocity)
+    loads[:3] += body_drag_force(frame.body, velocity)
+    return loads
 
 
 @kernel

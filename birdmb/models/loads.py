@@ -11,8 +11,8 @@ from birdmb.models.loads_kernel import StackedLoads
 
 DISSIPATORS = ("lift", "profile", "tail", "body")
 _SHARED = (
-    *("force", "moment", "body_drag", "joint_torques", "position", "node", "velocity"),
-    *("chord", "width", "element_force", "profile_drag", "circulation"),
+    *("force", "moment", "body_force", "body_moment", "joint_torques", "position", "node"),
+    *("velocity", "chord", "width", "element_force", "profile_drag", "circulation"),
     *("angle_of_attack", "speed"),
 )
 
@@ -45,8 +45,10 @@ class Loads:
     """(3,) N m, of all of them about the body's centre of mass G."""
     tail: "TailLoads | None"
     """Of the tail; `None` where there is none, or where it is furled."""
-    body_drag: FloatArray
-    """(3,) N, of the body, at G."""
+    body_force: FloatArray
+    """(3,) N, of the body, at G: its drag and side force."""
+    body_moment: FloatArray
+    """(3,) N m, of the body, about G."""
     power: float
     """W, that the wings' motion relative to the body takes: minus the sum of force . velocity."""
     joint_torques: FloatArray
@@ -128,7 +130,8 @@ class LoadsAlong:
         at_tail = np.broadcast_to([tail.x, 0.0, tail.z], (len(twists), 1, 3))
         tail_moves = _point_velocity(twists[:, :3], twists[:, 3:], at_tail)[:, 0]
         of_tail = -(stack.tail_force * tail_moves).sum(axis=1)
-        of_body = -(stack.body_drag * twists[:, :3]).sum(axis=1)
+        of_body = np.hstack([stack.body_force, stack.body_moment])
+        of_body = -(of_body * twists).sum(axis=1)
         return np.column_stack([wing - profile, profile, of_tail, of_body])
 
 

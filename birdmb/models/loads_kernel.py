@@ -6,8 +6,7 @@ import numpy as np
 
 from birdmb._kernels import kernel
 from birdmb._typing import FloatArray, IntArray
-from birdmb.aerodynamics.airframe import Airframe, tail_wind
-from birdmb.aerodynamics.body_drag import body_drag_force
+from birdmb.aerodynamics.airframe import Airframe, body_loads, tail_wind
 from birdmb.aerodynamics.circulation import ElementLoads, element_loads
 from birdmb.aerodynamics.elements import Elements, clearance, place_elements
 from birdmb.aerodynamics.joints import hinge_torques, joint_torques
@@ -30,7 +29,8 @@ class StackedLoads(NamedTuple):
     tail_force: FloatArray  # (K, 3) N
     tail_angle: FloatArray  # (K,) rad, of attack; NaN where there is no tail
     tail_downwash: FloatArray  # (K,) m/s along z
-    body_drag: FloatArray  # (K, 3) N
+    body_force: FloatArray  # (K, 3) N
+    body_moment: FloatArray  # (K, 3) N m
     joint_torques: FloatArray  # (K, A) N m, about joints and hinges
     position: FloatArray  # (K, N, 3) m
     node: FloatArray  # (K, N + 1, 3) m
@@ -73,6 +73,7 @@ def loads_along(
         np.zeros((count, 3)),
         np.full(count, np.nan),
         np.zeros(count),
+        np.zeros((count, 3)),
         np.zeros((count, 3)),
         np.full((count, joints), np.nan),
         np.empty((count, n, 3)),
@@ -119,7 +120,8 @@ def loads_along(
             about_joints = joint_torques(wing, chain, placed.position, force, shape.beyond)
             torques[: about_joints.size] = about_joints
             torques[about_joints.size :] = hinge_torques(shape.hinge_velocity, force)
-        stack.body_drag[k] = body_drag_force(frame.body, twists[k, :3])[:, 0]
+        of_body = body_loads(frame, twists[k, :3])[:, 0]
+        stack.body_force[k] = of_body[:3]
         if tail.span > 0.0:
             even = 0.5 * (right.circulation + left.circulation)
             induced = tail_influence(tail, placed.node) @ even
@@ -127,11 +129,12 @@ def loads_along(
             stack.tail_force[k] = tail_force(tail, frame.density, wind)[:, 0]
             stack.tail_angle[k] = tail_angle(tail, wind[0], wind[2])
             stack.tail_downwash[k] = induced[1]
-        stack.force[k] = stack.tail_force[k] + stack.body_drag[k]
+        stack.body_moment[k] = of_body[3:]
+        stack.force[k] = stack.tail_force[k] + stack.body_force[k]
         fx, fy, fz = stack.tail_force[k]
-        stack.moment[k, 0] = -tail.z * fy
-        stack.moment[k, 1] = tail.z * fx - tail.x * fz
-        stack.moment[k, 2] = tail.x * fy
+        stack.moment[k, 0] = stack.body_moment[k, 0] - tail.z * fy
+        stack.moment[k, 1] = stack.body_moment[k, 1] + tail.z * fx - tail.x * fz
+        stack.moment[k, 2] = stack.body_moment[k, 2] + tail.x * fy
         for side, of_wing in ((1.0, right.force), (-1.0, left.force)):
             for e in range(n):
                 x, y, z = placed.position[e]

@@ -18,7 +18,10 @@ from birdmb.topology.unused import SPRING, unused_values
 
 # So many birds are looked at, before a value that none of them uses is refused.
 _LOOKED_AT = 200
-_OF_MOTION_IN_SPACE = ("body.inertia_xx", "body.inertia_zz", "body.inertia_xz")
+_OF_MOTION_IN_SPACE = tuple(
+    f"body.{name}"
+    for name in ("inertia_xx", "inertia_zz", "inertia_xz", "side_area", "side_coefficient")
+)
 _PLANAR = 'the bird flies in its plane of symmetry; take a model with motion="free"'
 
 

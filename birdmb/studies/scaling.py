@@ -71,15 +71,11 @@ def scale_bird(like: Bird, mass: float) -> ScaledBird:
     values: dict[str, Any] = {
         "name": f"{like.name}_{mass:g}kg",
         "gait.frequency": allometric_frequency(mass),
-        "body.mass": like.body.mass * heavier,
+        **_body(like, heavier, longer),
         "wing.root.x": like.wing.root.x * chord,
         "wing.root.z": like.wing.root.z * chord,
         **_wings(like, bones, feathers),
     }
-    for axes in ("xx", "yy", "zz", "xz"):
-        moment = getattr(like.body, f"inertia_{axes}")
-        if moment is not None:
-            values[f"body.inertia_{axes}"] = moment * heavier * longer**2
     for bone in BONES:
         segment, name = getattr(like.segments, bone), f"segments.{bone}"
         values[f"{name}.mass"] = segment.mass * heavier
@@ -113,6 +109,17 @@ def scale_bird(like: Bird, mass: float) -> ScaledBird:
         values["drag.frontal_area"] = like.drag.frontal_area * longer**2
     bird = like.with_values(values)
     return ScaledBird(bird, _assumptions(like, bird, mass, bones, feathers))
+
+
+def _body(like: Bird, heavier: float, longer: float) -> dict[str, float]:
+    """Values of the body, by dotted name; those that are not given stay so."""
+    factors = {"mass": heavier, "volume": heavier, "side_area": longer**2}
+    for axes in ("xx", "yy", "zz", "xz"):
+        factors[f"inertia_{axes}"] = heavier * longer**2
+    sizes = {name: getattr(like.body, name) for name in factors}
+    return {
+        f"body.{name}": size * factors[name] for name, size in sizes.items() if size is not None
+    }
 
 
 def _wings(like: Bird, bones: float, feathers: float) -> dict[str, Any]:

@@ -41,6 +41,7 @@ Length = Annotated[_Positive, _within(1e-9, 1e4, _SIZES)]
 Distance = Annotated[_NonNegative, _within(1e-9, 1e4, _SIZES, or_zero=True)]
 Coordinate = Annotated[Real, _within(-1e4, 1e4, _SIZES)]
 Area = Annotated[_Positive, _within(1e-18, 1e8, _SIZES)]
+Volume = Annotated[_Positive, _within(1e-27, 1e12, _SIZES)]
 Mass = Annotated[_Positive, _within(1e-20, 1e9, _WEIGHTS)]
 MassOrNone = Annotated[_NonNegative, _within(1e-20, 1e9, _WEIGHTS, or_zero=True)]
 LEAST_INERTIA = 1e-40

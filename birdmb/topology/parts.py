@@ -32,6 +32,8 @@ from birdmb.topology.names import Label
 from birdmb.topology.numbers import (
     LEAST_INERTIA,
     Angle,
+    Area,
+    Coefficient,
     Coordinate,
     Density,
     Direction,
@@ -48,6 +50,7 @@ from birdmb.topology.numbers import (
     Share,
     Stiffness,
     Viscosity,
+    Volume,
 )
 
 Bone = Literal["humerus", "forearm", "hand"]
@@ -119,6 +122,19 @@ class Body(Part):
         default=0.0,
         description="off-diagonal element of the inertia tensor, minus the product of inertia, "
         "kg m2",
+    )
+    side_area: Area | None = Field(
+        default=None,
+        description="area that the coefficient of the body's side force refers to, m2; without it "
+        "there is none",
+    )
+    side_coefficient: Coefficient = Field(
+        default=0.0, description="side force per sideslip angle, dynamic pressure and area, 1/rad"
+    )
+    volume: Volume | None = Field(
+        default=None,
+        description="volume of the body, m3, whose moment across the stream is that of a slender "
+        "one; without it there is none",
     )
 
     @model_validator(mode="before")

@@ -16,6 +16,8 @@ def unused_values(bird: Bird) -> dict[str, str]:
     if not bird.drag.body:
         off = "the body has no drag (drag.body is false)"
         unused |= {"drag.frontal_area": off, "drag.body_coefficient": off}
+    if bird.body.side_area is None:
+        unused["body.side_coefficient"] = "the body has no side_area"
     skin_friction = bird.drag.body and bird.drag.body_coefficient is None
     if bird.tail is None and not skin_friction:
         unused["air.kinematic_viscosity"] = "nothing has friction (a tail or drag.body would)"

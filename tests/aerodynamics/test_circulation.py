@@ -14,6 +14,7 @@ from birdmb.aerodynamics.prescribed import (
     prescribed_wing,
     symmetric_loads,
 )
+from birdmb.aerodynamics.slender_body import SlenderBody
 from birdmb.aerodynamics.tail import TailSurface
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.chain import joint_chain
@@ -227,7 +228,7 @@ def test_derivatives_by_the_state_are_exact(wing):
     """Against central differences, whose error falls by four when their step is halved."""
     table = prescribed_wing(wing, NO_TAIL, np.array([0.04]), 16, 0.5, False)
     placed = at_phase(table.elements, 0)
-    frame = Airframe(DENSITY, PROFILE, NO_TAIL, BodyDrag(0.0, 0.0))
+    frame = Airframe(DENSITY, PROFILE, NO_TAIL, BodyDrag(0.0, 0.0), SlenderBody(0.0, 0.0))
     planar = np.array([0, 2, 4])
     twist = np.array([17.0, 0.0, -1.5, 0.0, 0.7, 0.0])
 

@@ -46,7 +46,7 @@ def test_components_are_switched_off_one_by_one(ibis_tail):
     assert furled.tail is None
     np.testing.assert_array_equal(furled.force, without.loads(0.03, x).force)
     np.testing.assert_array_equal(furled.moment, without.loads(0.03, x).moment)
-    np.testing.assert_array_equal(furled.body_drag, 0.0)
+    np.testing.assert_array_equal(furled.body_force, 0.0)
     np.testing.assert_array_equal(furled.profile_drag, 0.0)
 
 

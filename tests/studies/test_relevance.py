@@ -64,6 +64,7 @@ def test_the_rigid_model_ignores_what_does_not_move_its_flow(bird):
 
 def test_the_multibody_model_ignores_nothing_but_springs_of_prescribed_joints(bird):
     in_space = {f"body.inertia_{axes}" for axes in ("xx", "xz", "zz")}
+    in_space |= {"body.side_area", "body.side_coefficient"}
     assert set(ignored_values(bird, MULTIBODY)) == in_space
     assert not in_space & set(ignored_values(bird, partial(birdmb.RigidModel, motion="free")))
     unused = unused_values(bird)

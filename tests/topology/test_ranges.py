@@ -68,6 +68,7 @@ def similar(bird, length):
         "mass": 3, "inertia": 5, "inertia_xx": 5, "inertia_yy": 5, "inertia_zz": 5, "x": 1, "y": 1,
         "z": 1, "half_thickness": 1, "length": 1, "centre_of_mass": 1, "frequency": -0.5,
         "stiffness": 4, "damping": 4.5, "chord": 1, "kinematic_viscosity": 1.5,
+        "side_area": 2, "volume": 3,
     }  # fmt: skip
     values = {}
     for name in bird.value_names():
