@@ -102,6 +102,7 @@ def _flight(cycle: FlightCycle, validity: Validity) -> Table:
         ("speed", f"{cycle.mean_speed:.3f}", "m/s", ""),
         ("climb rate", f"{cycle.mean_climb_rate:+.3f}", "m/s", ""),
         ("path angle", f"{np.degrees(cycle.path_angle):+.2f}", "°", ""),
+        *_turn(cycle, model),
         ("power", f"{cycle.power:.3f}", "W", "to move the wings against the air"),
         (
             "  of feathers",
@@ -128,6 +129,16 @@ def _flight(cycle: FlightCycle, validity: Validity) -> Table:
     for row in rows:
         table.add_row(*row)
     return table
+
+
+def _turn(cycle: FlightCycle, model: WingModel) -> list[tuple[str, str, str, str]]:
+    """Bank and turn of a flight in space."""
+    if not model.motion.lateral.any():
+        return []
+    return [
+        ("bank", f"{np.degrees(cycle.mean_bank):+.2f}", "°", "right wing down positive"),
+        ("turn rate", f"{np.degrees(cycle.turn_rate):+.2f}", "°/s", "to the right positive"),
+    ]
 
 
 def _method(cycle: FlightCycle, model: WingModel) -> list[tuple[str, str, str, str]]:

@@ -56,6 +56,8 @@ def result_object(cycle: FlightCycle, validity: Validity, model_name: str) -> di
         "mean_climb_rate": cycle.mean_climb_rate,
         "path_angle": cycle.path_angle,
         "mean_pitch": cycle.mean_pitch,
+        "mean_bank": cycle.mean_bank,
+        "turn_rate": cycle.turn_rate,
         "power": cycle.power,
         "potential_power": cycle.potential_power,
         "corrected_power": cycle.corrected_power,

@@ -15,7 +15,7 @@ from birdmb.models.beat import Beat
 from birdmb.models.energy import Work, work_by_sign
 from birdmb.models.flight_modes import FlightMode, flight_modes
 from birdmb.models.loads import DISSIPATORS
-from birdmb.models.motion import SPACE_STATES, heading_velocity
+from birdmb.models.motion import SPACE_STATES, heading_rate, heading_velocity
 from birdmb.models.stepped_cycle import SteppedCycle
 from birdmb.models.wing_model import STEPS_PER_BEAT
 
@@ -24,7 +24,7 @@ _LARGEST_IMBALANCE = 0.01
 _LARGEST_INTEGRATION_ERROR = 0.01
 # Loads are of higher degree in the states than one.
 _INSTANTS_PER_NODE = 2
-_THETA = SPACE_STATES.index("theta")
+_PHI, _THETA = SPACE_STATES.index("phi"), SPACE_STATES.index("theta")
 
 
 def world_velocity(states: FloatArray) -> FloatArray:
@@ -104,6 +104,16 @@ class FlightCycle(SteppedCycle):
     def mean_pitch(self) -> float:
         """Mean pitch angle, rad, nose up positive."""
         return float(self._mean_in_space[_THETA])
+
+    @property
+    def mean_bank(self) -> float:
+        """Mean roll angle, rad, right wing down positive; 0 in symmetric flight."""
+        return float(self._mean_in_space[_PHI])
+
+    @cached_property
+    def turn_rate(self) -> float:
+        """Mean rate of the heading, rad/s, to the right positive; 0 in symmetric flight."""
+        return float(_mean(heading_rate(self._bird_model.body_in_space(self._states_of_beat[1]))))
 
     @property
     def path_angle(self) -> float:

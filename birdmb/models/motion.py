@@ -94,6 +94,12 @@ def heading_velocity(space: FloatArray) -> FloatArray:
     return np.column_stack([forward, right, up])
 
 
+def heading_rate(space: FloatArray) -> FloatArray:
+    """Rates (K,) rad/s of the heading, to the right positive, of states in space (K, 8)."""
+    q, r, phi, theta = space[:, 4:].T
+    return np.asarray((q * np.sin(phi) + r * np.cos(phi)) / np.cos(theta))
+
+
 def along_body(space: FloatArray, air: FloatArray) -> FloatArray:
     """Components (K, 3) along the body's axes of `air` (K, 3) m/s, forward, right and upwards.
 

@@ -131,3 +131,27 @@ def test_motion_in_space_needs_all_moments_of_inertia(tailed):
         birdmb.RigidModel(flat, motion="free")
     with pytest.raises(ValueError, match='must be "planar" or "free", not "sideways"'):
         birdmb.RigidModel(tailed, motion="sideways")
+
+
+def test_a_turn_is_a_limit_cycle_like_its_mirror_image(model):
+    straight = birdmb.find_limit_cycle(model)
+    assert straight.stability == "unstable"  # in the spiral mode alone
+    assert [m.name for m in straight.flight_modes if abs(m.multiplier) > 1] == ["spiral"]
+    start = straight.x0.copy()
+    start[[4, 5, 6]] += 0.17, 0.30, 0.5
+    right = birdmb.find_limit_cycle(model, start)
+    left = birdmb.find_limit_cycle(model, MIRROR * start)
+    np.testing.assert_allclose(left.x0, MIRROR * right.x0, atol=1e-6)
+    assert right.stability == left.stability == "stable"
+    assert {mode.plane for mode in right.flight_modes} == {"coupled"}
+    # The lift's horizontal part turns the path: tan(bank) = V omega/g, level and coordinated.
+    coordinated = np.arctan(right.mean_velocity[0] * right.turn_rate / model.bird.gravity)
+    assert right.mean_bank == pytest.approx(coordinated, rel=0.03)
+    assert left.turn_rate == pytest.approx(-right.turn_rate, rel=1e-6)
+    assert right.energy_imbalance < 1e-6
+    # Where the straight flight goes if nobody corrects its bank.
+    x = straight.x0.copy()
+    x[6] = 0.01
+    for beat in range(360):
+        x = model.flow(x, beat * model.period, (beat + 1) * model.period)
+    np.testing.assert_allclose(x, right.x0, atol=1e-2)
