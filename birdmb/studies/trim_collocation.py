@@ -7,7 +7,6 @@ parameters folds back, the trimmed flight does not.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Self
 
 import numpy as np
@@ -78,6 +77,10 @@ class CollocatedTrim:
         """Scaled states (N n,), and parameters (k,)."""
         size = u.size - self._low.size
         return u[:size], self._low + u[size:] * self._width
+
+    def within_bounds(self, point: FloatArray) -> FloatArray:
+        """The parameters (k,) within their bounds that are nearest to some."""
+        return np.clip(point, self._low, self._low + self._width)
 
     def path(self, u: FloatArray) -> FloatArray:
         """States (N, n) at the nodes, in their own units."""
@@ -194,8 +197,9 @@ def solve_collocated(
         accuracy: largest error of the states of the trimmed flight, in units of their scale.
 
     Returns:
-        The parameters, and the orbit of the model with these, whose error is its own: beside a
-        fold it is larger than that of the trimmed flight, which moves with its parameters.
+        The parameters, and the orbit. Its error and what a finer solution makes of it are those of
+        the trimmed flight, whose parameters follow; at fixed ones the orbit may be ill-conditioned,
+        as it is beside a fold.
 
     Raises:
         OrbitError: it was not found; `NotSmoothError` where the orbit is too rough.
@@ -212,14 +216,13 @@ def solve_collocated(
         callback=give_up_creeping,
     )
     states, point = trimmed.equations.unpack(trimmed.u)
-    orbit = collocate(
-        trimmed.equations.orbit(point),
-        states,
-        damping="line-search",
-        tolerance=np.inf,
-        accuracy=accuracy,
-        max_iterations=1,
-        most_nodes=_MOST_NODES,
-        fixed=True,
+    finer_states, finer_point = trimmed.finer.unpack(trimmed.finer_u)
+    return point, Collocated(
+        equations=trimmed.equations.orbit(point),
+        u=states,
+        residual=trimmed.residual[: states.size],
+        finer=trimmed.finer.orbit(trimmed.finer.within_bounds(finer_point)),
+        finer_u=finer_states,
+        state_error=trimmed.state_error,
+        iterations=trimmed.iterations,
     )
-    return point, replace(orbit, iterations=trimmed.iterations)
