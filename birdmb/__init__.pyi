@@ -1,4 +1,5 @@
 from .errors import BirdmbError, OrbitError, StateError, TopologyError
+from .figures import plot_gust_response
 from .models import (
     Beat,
     CosineGust,
@@ -35,7 +36,6 @@ from .studies import (
     gust_response,
     parameter_study,
     perturbed_flight,
-    plot_gust_response,
     trim_flight,
     tunnel_and_free_flight,
 )

@@ -90,7 +90,7 @@ def run(
     written = [] if store is None else [store]
     with at_work(progress, *directories, farewell=farewell), plain_style():
         if out is not None:
-            from birdmb.studies.branch_figure import plot_bird_branch  # noqa: PLC0415 - takes time
+            from birdmb.figures import plot_bird_branch  # noqa: PLC0415 - takes time
 
             progress.doing("drawing branch.png")
             written.append(write_figure(out / "branch.png", plot_bird_branch(branch)))

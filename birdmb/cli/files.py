@@ -63,11 +63,11 @@ def write_results(cycle: FlightCycle, directory: Path, progress: Progress) -> li
     from birdmb import figures  # noqa: PLC0415 - takes a second
 
     drawings: dict[str, Callable[[FlightCycle], Figure]] = {
-        "states.png": figures.states,
-        "multipliers.png": figures.multipliers,
-        "loads.png": figures.loads_and_power,
-        "wing.png": figures.wing_phases,
-        "overview.png": figures.overview,
+        "states.png": figures.plot_states,
+        "multipliers.png": figures.plot_multipliers,
+        "loads.png": figures.plot_loads_and_power,
+        "wing.png": figures.plot_wing_phases,
+        "overview.png": figures.plot_overview,
     }
     for name, draw in drawings.items():
         progress.doing(f"drawing {name}")

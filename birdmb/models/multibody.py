@@ -7,11 +7,11 @@ import numpy as np
 from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError, StateError
 from birdmb.models.flight_cycle import FlightCycle
+from birdmb.models.rigid_flights import rigid_flights
 from birdmb.models.starts import (
     FEW_INCIDENCES,
     FEW_PATH_ANGLES,
     FEW_SPEEDS,
-    rigid_flights,
     steady_states,
 )
 from birdmb.models.tethered import TetheredModel

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Final, Literal
+from typing import Final, Literal
 
 from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError
-
-if TYPE_CHECKING:
-    from birdmb.orbits.newton import Iteration
+from birdmb.orbits.iteration import Iteration
 
 
 class ArgumentError(OrbitError, ValueError):

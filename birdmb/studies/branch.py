@@ -251,6 +251,6 @@ class _LastValidity:
 
 def _angles(cycle: FlightCycle, joint: int) -> FloatArray:
     """Angle (K,) rad of a joint over a beat."""
-    model, beat = cast(WingModel, cycle.model), cycle.beat
+    model, beat = cycle.bird_model, cycle.beat
     at = zip(beat.times, beat.states, strict=True)
     return np.array([model.joint_motion(t, x)[0][joint] for t, x in at])
