@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from birdmb._typing import FloatArray
+from birdmb.cli.models import model_class
 from birdmb.cli.outcome import SearchFailed
 from birdmb.cli.results import finite, taken_as_prescribed
 from birdmb.errors import OrbitError, StateError
+from birdmb.models import MultibodyModel, RigidModel
 from birdmb.orbits import (
     ArgumentError,
     Attempt,
@@ -28,8 +30,6 @@ if TYPE_CHECKING:
     from birdmb.cli.progress import Progress
     from birdmb.cli.saved_guess import SavedGuess
     from birdmb.models import FlightCycle
-    from birdmb.models.multibody import MultibodyModel
-    from birdmb.models.rigid import RigidModel
     from birdmb.orbits.newton import Damping
     from birdmb.orbits.search import SearchMethod
     from birdmb.topology import Bird
@@ -72,13 +72,7 @@ class Search:
 
 def model_of(bird: Bird, name: str, steps_per_beat: int | None) -> RigidModel | MultibodyModel:
     """The model of a bird that the option --model names."""
-    if name == "rigid":
-        from birdmb.models.rigid import RigidModel  # noqa: PLC0415
-
-        return RigidModel(bird, steps_per_beat=steps_per_beat)
-    from birdmb.models.multibody import MultibodyModel  # noqa: PLC0415
-
-    return MultibodyModel(bird, steps_per_beat=steps_per_beat)
+    return model_class(name)(bird, steps_per_beat=steps_per_beat)
 
 
 def announce(model: RigidModel | MultibodyModel, name: str, progress: Progress) -> None:
@@ -262,8 +256,6 @@ def _starts_of_others(model: RigidModel | MultibodyModel) -> list[FloatArray] | 
 
     Of the multibody bird those along forward flights, without the guess, which has been tried.
     """
-    from birdmb.models.rigid import RigidModel  # noqa: PLC0415 - not before the bird is sound
-
     if isinstance(model, RigidModel):
         return None
     times = model.bird.period * np.arange(COARSE_NODES) / COARSE_NODES

@@ -8,9 +8,9 @@ from pathlib import Path
 import typer
 
 from birdmb.cli.console import messages
+from birdmb.cli.models import model_class
 from birdmb.cli.progress import Progress
 from birdmb.cli.results import taken_as_prescribed, verdict_sentence
-from birdmb.models import MultibodyModel, RigidModel
 from birdmb.studies.trim import trim_flight
 from birdmb.studies.validity import assess_validity
 from birdmb.topology import Bird
@@ -35,7 +35,7 @@ def run(
             parameters,
             climb_rate=climb_rate,
             speed=speed,
-            model=RigidModel if model == "rigid" else MultibodyModel,
+            model=model_class(model),
         )
         cycle = found.cycle
         warnings = assess_validity(cycle).warnings
