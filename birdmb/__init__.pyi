@@ -1,4 +1,4 @@
-from .errors import BirdmbError, OrbitError, StateError, TopologyError
+from .errors import ArgumentError, BirdmbError, OrbitError, StateError, TopologyError
 from .figures import plot_gust_response
 from .models import (
     Beat,
@@ -46,6 +46,7 @@ from .studies.tail import stability_openings, tail_study
 from .topology import Bird, load_bird
 
 __all__ = [
+    "ArgumentError",
     "Beat",
     "Bird",
     "BirdmbError",

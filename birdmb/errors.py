@@ -5,6 +5,10 @@ class BirdmbError(Exception):
     """Base of all deliberate errors; its text is fit to be shown to a user as it is."""
 
 
+class ArgumentError(BirdmbError, ValueError):
+    """An argument has the wrong shape or value, or two arguments contradict each other."""
+
+
 class TopologyError(BirdmbError):
     """A topology file, a dotted name or a value is wrong; the text names file, key and value."""
 

@@ -12,6 +12,7 @@ import xarray as xr
 
 from birdmb._typing import FloatArray
 from birdmb.aerodynamics.prescribed import driven_at
+from birdmb.errors import ArgumentError
 from birdmb.models.beat import Beat
 from birdmb.models.energy import Work, work_by_sign
 from birdmb.models.loads import DISSIPATORS
@@ -143,10 +144,10 @@ class FlightCycle(SteppedCycle):
         muscles take out of the metabolism is left to whoever knows their efficiency.
 
         Raises:
-            ValueError: the part is not between 0 and 1.
+            ArgumentError: the part is not between 0 and 1.
         """
         if not 0.0 <= recovery <= 1.0:
-            raise ValueError(f"recovery is the part of negative work won back, not {recovery}.")
+            raise ArgumentError(f"recovery is the part of negative work won back, not {recovery}.")
         return sum(work.net(recovery) for work in self.driver_work.values())
 
     @property

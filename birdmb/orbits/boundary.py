@@ -11,11 +11,11 @@ import numpy as np
 import numpy.typing as npt
 import xarray as xr
 
-from birdmb.errors import BirdmbError
+from birdmb.errors import ArgumentError, BirdmbError
 from birdmb.orbits.branch import Branch
 from birdmb.orbits.branch_points import Bifurcation
 from birdmb.orbits.continuation import continue_branch
-from birdmb.orbits.errors import BIFURCATIONS_FOUND, ArgumentError
+from birdmb.orbits.errors import BIFURCATIONS_FOUND
 from birdmb.orbits.extended import Family
 from birdmb.orbits.problem import Model
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Final, Literal
 
+from birdmb import errors
 from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError
 from birdmb.orbits.iteration import Iteration
 
 
-class ArgumentError(OrbitError, ValueError):
-    """An argument has the wrong shape or value, or two arguments contradict each other."""
+class ArgumentError(errors.ArgumentError, OrbitError):
+    """As `birdmb.errors.ArgumentError`, of a computation on an orbit."""
 
 
 _LARGEST_TOLERANCE = 1e-2

@@ -11,11 +11,10 @@ from typing import Any, TypeAlias, cast
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.errors import BirdmbError, StateError, TopologyError
+from birdmb.errors import ArgumentError, BirdmbError, StateError, TopologyError
 from birdmb.models import FlightCycle, MultibodyModel
 from birdmb.models.wing_model import WingModel
 from birdmb.orbits import (
-    ArgumentError,
     Bifurcation,
     Branch,
     BranchPoint,

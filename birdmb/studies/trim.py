@@ -13,9 +13,9 @@ import numpy.typing as npt
 from scipy.optimize import least_squares, root_scalar
 
 from birdmb._typing import FloatArray
-from birdmb.errors import OrbitError, StateError
+from birdmb.errors import ArgumentError, OrbitError, StateError
 from birdmb.models import FlightCycle, RigidModel
-from birdmb.orbits import ArgumentError, FloquetResult
+from birdmb.orbits import FloquetResult
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.errors import TrimError
 from birdmb.studies.trim_search import Trimmed, TrimSearch

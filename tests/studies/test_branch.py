@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 import birdmb
+from birdmb.errors import ArgumentError
 from birdmb.figures import plot_bird_branch
-from birdmb.orbits import ArgumentError, Steps
+from birdmb.orbits import Steps
 from birdmb.studies.branch import OBSERVABLE_UNITS, bird_branch
 
 STIFFNESS = "shoulder.flap.stiffness"
