@@ -1,5 +1,7 @@
 """The multibody bird in flight, its joints prescribed or compliant (docs/model.md, section 7)."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 
 import numpy as np

@@ -1,5 +1,7 @@
 """A limit cycle of a model that is flown with fixed steps, and what these make of it."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from functools import cached_property

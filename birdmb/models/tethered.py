@@ -1,5 +1,7 @@
 """The bird in a wind tunnel: its body held in steady motion, its joints free."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from typing import Any
 

@@ -1,5 +1,7 @@
 """The bird: one immutable, validated value that everything else is computed from."""
 
+from __future__ import annotations
+
 import hashlib
 import json
 from collections.abc import Iterable, Mapping
@@ -179,7 +181,7 @@ class Bird(Part):
         place = place_of(name, named_places(self), self.name)
         return value_at(self._document(resolved=is_resolution(name)), place)
 
-    def with_values(self, values: Mapping[str, Any]) -> "Bird":
+    def with_values(self, values: Mapping[str, Any]) -> Bird:
         """Return a bird with other values under dotted names, as `{"body.mass": 1.3}`.
 
         A stiffness or damping given to a prescribed joint makes it compliant, unless its mode is
@@ -192,7 +194,7 @@ class Bird(Part):
         changed = ", ".join(f"{name} = {shown(value)}" for name, value in values.items())
         return validated(type(self), document, f"{self.name} (with {changed})")
 
-    def with_joint(self, name: str, **values: Any) -> "Bird":
+    def with_joint(self, name: str, **values: Any) -> Bird:
         """Return a bird with other values of one joint, as `stiffness=20` or `offset_deg=-5`.
 
         Works and raises as `with_values`.
@@ -200,7 +202,7 @@ class Bird(Part):
         self.joint(name)
         return self.with_values({f"{name}.{key}": value for key, value in values.items()})
 
-    def with_gait(self, **values: Any) -> "Bird":
+    def with_gait(self, **values: Any) -> Bird:
         """Return a bird with another gait, as `frequency=5` (Hz); raises as `with_values`."""
         return self.with_values({f"gait.{key}": value for key, value in values.items()})
 

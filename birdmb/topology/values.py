@@ -1,5 +1,7 @@
 """Dotted names: one way to read and to vary every value of a bird, in files, Python and studies."""
 
+from __future__ import annotations
+
 import math
 import tomllib
 from collections.abc import Iterator, Mapping
