@@ -168,11 +168,6 @@ class FloquetResult:
             return np.asarray(self.period * np.log(2) / rate)
 
     @property
-    def time_constants(self) -> FloatArray:
-        """Time (n,) in s in which each mode grows or decays by the factor e: 1/|Re exponent|."""
-        return np.asarray(self.doubling_times / np.log(2))
-
-    @property
     def participation(self) -> FloatArray:
         """Share (n, n) of each state (row) in each mode (column), columns summing to 1.
 

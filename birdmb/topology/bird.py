@@ -202,10 +202,6 @@ class Bird(Part):
         self.joint(name)
         return self.with_values({f"{name}.{key}": value for key, value in values.items()})
 
-    def with_gait(self, **values: Any) -> Bird:
-        """Return a bird with another gait, as `frequency=5` (Hz); raises as `with_values`."""
-        return self.with_values({f"gait.{key}": value for key, value in values.items()})
-
     def fingerprint(self) -> str:
         """Return a SHA-256 hash of all values, in hexadecimal, the same in any process.
 

@@ -40,7 +40,7 @@ def test_points_are_limit_cycles(inline):
         np.testing.assert_allclose(at.multiplier_real, cycle.multipliers.real, atol=1e-6)
         np.testing.assert_allclose(at.monodromy, cycle.monodromy, atol=1e-5)
         assert at.largest_modulus == pytest.approx(np.abs(cycle.multipliers[0]), abs=1e-6)
-        assert at.time_constant == pytest.approx(cycle.time_constants[0], rel=1e-5)
+        assert at.time_constant == pytest.approx(1 / abs(cycle.exponents[0].real), rel=1e-5)
         assert at.power == pytest.approx(cycle.power, abs=1e-6)
         assert at.climb_rate == pytest.approx(cycle.mean_climb_rate, abs=1e-7)
         assert at.residual < 1e-7
