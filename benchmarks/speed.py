@@ -15,13 +15,12 @@ from rich.console import Console
 from rich.table import Table
 
 import birdmb
-from birdmb.aerodynamics.prescribed import bird_loads, prescribed_wing
+from birdmb.aerodynamics.prescribed import prescribed_wing, symmetric_loads
 from birdmb.models.exudyn_tree import BODY_COORDINATES, ExudynBird
 from birdmb.models.multibody_kernel import air_forces
 from birdmb.models.springs import spring_torques, springs_of
 
 TOPOLOGIES = Path(__file__).parent.parent / "topologies"
-STATE = (18.0, -2.0, 0.1)
 
 
 def best(run: Callable[[], object], repeat: int = 5, inner: int = 1) -> float:
@@ -52,7 +51,8 @@ def load_evaluations(prescribed: birdmb.Bird, compliant: birdmb.Bird) -> tuple[f
     rigid = birdmb.RigidModel(prescribed)
     frame = rigid.airframe
     table = prescribed_wing(rigid.wing, frame.tail, np.array([0.01]), *rigid.discretisation)
-    fixed = best(lambda: bird_loads(table, 0, frame, *STATE), inner=2000)
+    twist, planar = np.array([18.0, 0.0, -2.0, 0.0, 0.1, 0.0]), rigid.motion.directions
+    fixed = best(lambda: symmetric_loads(table, 0, frame, twist, planar), inner=2000)
 
     model = birdmb.MultibodyModel(compliant)
     angles, rates = model.joint_motion(0.01, model.driven_state(0.01))

@@ -14,8 +14,9 @@ import numpy as np
 from scipy.optimize import brentq
 
 import birdmb
-from birdmb.aerodynamics.prescribed import at_phase, bird_loads, resultant_and_derivatives
+from birdmb.aerodynamics.prescribed import at_phase, symmetric_loads
 from birdmb.aerodynamics.tail import tail_force, tail_influence, tail_surface
+from birdmb.aerodynamics.twist_loads import wing_flow
 
 IBIS = Path(__file__).parent.parent / "topologies" / "ibis_tail.toml"
 ROLL, OPENING = "forearm.roll.offset_deg", "tail.opening_deg"
@@ -58,31 +59,29 @@ class ProgramTail(birdmb.RigidModel):
     def _rates(self, table: Any, k: int, x: np.ndarray, influence: np.ndarray) -> np.ndarray:
         u, w, q, theta = x
         frame, body = self._constants
-        _, circulation = resultant_and_derivatives(
-            at_phase(table.elements, k), table.inverse[k], frame.density, frame.profile, u, w, q
-        )
-        induced = influence @ circulation[:, 0]
+        twist, no_derivatives = np.array([u, 0.0, w, 0.0, q, 0.0]), np.empty(0, int)
+        flow = wing_flow(at_phase(table.elements, k), twist, no_derivatives)
+        induced = influence @ table.inverse[k] @ flow.bound[:, 0]
         surface, turning = self._surface, -q if self.wrong_rate else q
-        wind = (
-            -u - turning * surface.z + induced[0],
-            -w + turning * surface.x + induced[1],
+        wind = np.array(
+            [-u - turning * surface.z + induced[0], 0.0, -w + turning * surface.x + induced[1]]
         )
-        fx, fz = tail_force(surface, frame.density, *wind)[:, 0]
+        fx, _, fz = tail_force(surface, frame.density, wind)[:, 0]
         of_tail = np.array([fx, fz, surface.z * fx - surface.x * fz])
-        forces = bird_loads(table, k, frame, u, w, q)[:, 0] + of_tail
+        forces = symmetric_loads(table, k, frame, twist, no_derivatives)[::2, 0] + of_tail
         s, c = np.sin(theta), np.cos(theta)
         return np.array(
             [
                 -q * w - body.gravity * s + forces[0] / body.mass,
                 q * u + body.gravity * c + forces[1] / body.mass,
-                forces[2] / body.inertia,
+                forces[2] / body.inertia[1, 1],
                 q,
             ]
         )
 
     def _integrate(self, x0: Any, t0: float, t1: float) -> tuple[Any, Any, Any]:
         steps = self._steps(t0, t1)
-        table = self._table(t0 % self.bird.period, t1 - t0, steps)
+        table = self._table(t0 % self.bird.period, t1 - t0, steps).wing
         influences = [self._influence(node) for node in table.elements.node]
         h, start = (t1 - t0) / steps, np.asarray(x0, dtype=float)
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from birdmb._kernels import kernel
-from birdmb._typing import FloatArray
+from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.body_drag import BodyDrag, body_drag, body_drag_force
 from birdmb.aerodynamics.tail import TailSurface, tail_force, tail_surface
 from birdmb.topology import Bird
@@ -31,41 +31,75 @@ def airframe(bird: Bird) -> Airframe:
 
 
 @kernel
-def tail_wind(
-    tail: TailSurface, induced: FloatArray, u: float, w: float, q: float
-) -> tuple[float, float]:
-    """Wind (m/s) along x and z at the tail of a body that moves at u, w (m/s) and q (rad/s).
+def tail_wind(tail: TailSurface, induced: FloatArray, twist: FloatArray) -> FloatArray:
+    """Wind (3,) m/s at the tail of a body that moves with a `twist` (6,).
 
-    `induced` (2,) m/s is what the wing's vortices add.
+    `induced` (2,) m/s is what the wing's vortices add along x and z.
     """
-    return -u - q * tail.z + induced[0], -w + q * tail.x + induced[1]
+    u, v, w, p, q, r = twist
+    return np.array(
+        [
+            -u - q * tail.z + induced[0],
+            -v - r * tail.x + p * tail.z,
+            -w + q * tail.x + induced[1],
+        ]
+    )
 
 
 @kernel
 def airframe_loads(
-    frame: Airframe, induced: FloatArray, u: float, w: float, q: float
+    frame: Airframe, induced: FloatArray, twist: FloatArray, directions: IntArray
 ) -> FloatArray:
-    """Loads (3, 4) of tail and body that move at u, w (m/s) and q (rad/s).
+    """Wrench (6, 1 + d) of tail and body that move with a `twist` (6,); see `twist_loads`.
 
-    Rows F_x, F_z (N), M_y (N m); columns: value, d/du, d/dw, d/dq. `induced` (2, 4) m/s is the
-    velocity along x and z that the wing's vortices induce at the tail, with its derivatives.
+    `induced` (2, 1 + d) m/s is the velocity along x and z that the wing's vortices induce at the
+    tail, with its derivatives. The tail lies in the plane of symmetry, where opposite circulations
+    of both wings induce a velocity along y alone; it is left out, for it would only turn friction.
     """
     tail = frame.tail
-    total = np.zeros((3, 4))
+    total = np.zeros((6, directions.size + 1))
     if tail.span > 0.0:
-        wind_x, wind_z = tail_wind(tail, induced[:, 0], u, w, q)
-        force = tail_force(tail, frame.density, wind_x, wind_z)
-        slope_x, slope_z = induced[0].copy(), induced[1].copy()
-        slope_x[1] -= 1.0
-        slope_x[3] -= tail.z
-        slope_z[2] -= 1.0
-        slope_z[3] += tail.x
-        for i in range(2):
-            total[i, 0] = force[i, 0]
-            for m in range(1, 4):
-                total[i, m] = force[i, 1] * slope_x[m] + force[i, 2] * slope_z[m]
-        for m in range(4):
-            total[2, m] = tail.z * total[0, m] - tail.x * total[1, m]
+        force = tail_force(tail, frame.density, tail_wind(tail, induced[:, 0], twist))
+        total[:3, 0] = force[:, 0]
+        slope = np.zeros(3)
+        for m in range(directions.size):
+            component = directions[m]
+            slope[0], slope[1], slope[2] = induced[0, m + 1], 0.0, induced[1, m + 1]
+            if component < 3:
+                slope[component] -= 1.0
+            elif component == 3:
+                slope[1] += tail.z
+            elif component == 4:
+                slope[0] -= tail.z
+                slope[2] += tail.x
+            else:
+                slope[1] -= tail.x
+            for i in range(3):
+                total[i, m + 1] = (
+                    force[i, 1] * slope[0] + force[i, 2] * slope[1] + force[i, 3] * slope[2]
+                )
+        for m in range(directions.size + 1):
+            fx, fy, fz = total[0, m], total[1, m], total[2, m]
+            total[3, m] = -tail.z * fy
+            total[4, m] = tail.z * fx - tail.x * fz
+            total[5, m] = tail.x * fy
     if frame.body.factor > 0.0:
-        total[:2, :3] += body_drag_force(frame.body, u, w)
+        drag = body_drag_force(frame.body, twist[:3])
+        total[:3, 0] += drag[:, 0]
+        for m in range(directions.size):
+            if directions[m] < 3:
+                total[:3, m + 1] += drag[:, directions[m] + 1]
     return total
+
+
+@kernel
+def planar_airframe_loads(
+    frame: Airframe, induced: FloatArray, u: float, w: float, q: float
+) -> FloatArray:
+    """F_x, F_z (N) and M_y (N m) of tail and body in symmetric flight, (3,).
+
+    `induced` (2,) m/s as for `airframe_loads`; u, w (m/s) and q (rad/s) of the body.
+    """
+    twist = np.array([u, 0.0, w, 0.0, q, 0.0])
+    wrench = airframe_loads(frame, induced.reshape(2, 1), twist, np.empty(0, np.int64))
+    return np.array([wrench[0, 0], wrench[2, 0], wrench[4, 0]])

@@ -45,20 +45,20 @@ def body_drag(bird: Bird) -> BodyDrag:
 
 
 @kernel
-def body_drag_force(drag: BodyDrag, u: float, w: float) -> FloatArray:
-    """Drag of a body that moves at u, w (m/s) through the air, against that motion.
+def body_drag_force(drag: BodyDrag, velocity: FloatArray) -> FloatArray:
+    """Drag (N) of a body that moves at a velocity (3,) m/s through the air, against that motion.
 
-    Rows F_x, F_z (N); columns: value, d/du, d/dw; (2, 3).
+    Columns: value, derivatives with respect to the velocity; (3, 4).
     """
-    force = np.zeros((2, 3))
-    square = u * u + w * w
+    force = np.zeros((3, 4))
+    square = velocity[0] ** 2 + velocity[1] ** 2 + velocity[2] ** 2
     if drag.factor == 0.0 or square == 0.0:
         return force
     power = 1.0 - drag.falling
     strength = drag.factor * square ** (0.5 * power)
-    force[0, 0] = -strength * u
-    force[1, 0] = -strength * w
-    force[0, 1] = -strength * (1.0 + power * u * u / square)
-    force[0, 2] = force[1, 1] = -strength * power * u * w / square
-    force[1, 2] = -strength * (1.0 + power * w * w / square)
+    for i in range(3):
+        force[i, 0] = -strength * velocity[i]
+        for j in range(3):
+            force[i, j + 1] = -strength * power * velocity[i] * velocity[j] / square
+        force[i, i + 1] -= strength
     return force

@@ -102,12 +102,24 @@ def lifting_forces(
     elements: Elements, density: float, wind: FloatArray, circulation: FloatArray
 ) -> FloatArray:
     """Forces (N, 3) N of `circulation` (N,) m2/s in `wind` (N, 3) m/s and what it induces."""
-    vy = elements.induced_y @ circulation
-    vz = elements.induced_z @ circulation
+    induced_y, induced_z = elements.induced_y @ circulation, elements.induced_z @ circulation
+    return vortex_forces(elements, density, wind, circulation, induced_y, induced_z)
+
+
+@kernel
+def vortex_forces(
+    elements: Elements,
+    density: float,
+    wind: FloatArray,
+    circulation: FloatArray,
+    induced_y: FloatArray,
+    induced_z: FloatArray,
+) -> FloatArray:
+    """Forces (N, 3) N of `circulation` (N,) m2/s in `wind` (N, 3) and induced velocities (N,)."""
     force = np.empty((circulation.size, 3))
     for e in range(circulation.size):
         t = elements.span_direction[e]
-        x, y, z = wind[e, 0], wind[e, 1] + vy[e], wind[e, 2] + vz[e]
+        x, y, z = wind[e, 0], wind[e, 1] + induced_y[e], wind[e, 2] + induced_z[e]
         strength = density * circulation[e] * elements.width[e]
         force[e, 0] = strength * (y * t[2] - z * t[1])
         force[e, 1] = strength * (z * t[0] - x * t[2])

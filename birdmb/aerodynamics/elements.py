@@ -1,8 +1,8 @@
 """Lifting-line elements of a symmetric pair of wings and the velocities they induce.
 
 Frame: body axes (x forward, y right, z down), origin at the body's centre of mass G. Only the right
-wing is stored: left and right circulations are equal and the left wing is the mirror image, so its
-influence is folded into the matrices.
+wing is stored: the left wing is its mirror image, with the same circulation (even parity, as in
+symmetric flight) or the opposite one (odd parity), so its influence is folded into the matrices.
 
 Each wing has N elements between N + 1 nodes. The first node lies on the centre line, beside the
 shoulder: the element at the root spans the gap over the body with the root's chord and control
@@ -21,6 +21,7 @@ from birdmb.wing.shape import WingShape
 # Of the line's length: what round-off may do to a root that lies in the plane of symmetry, and to
 # the width across the stream of an element that runs along it.
 _ROUND_OFF = 1e-9
+EVEN, ODD = 1.0, -1.0
 
 
 class Elements(NamedTuple):
@@ -34,7 +35,7 @@ class Elements(NamedTuple):
     chord: FloatArray  # (N,) m
     node: FloatArray  # (N + 1, 3) m, from the centre line to the wing tip
     width: FloatArray  # (N,) m, distance between the element's nodes
-    induced_y: FloatArray  # (N, N) 1/m, velocity along y at control i by circulation j, both wings
+    induced_y: FloatArray  # (N, N) 1/m, velocity along y at control i by circulation j, even parity
     induced_z: FloatArray  # (N, N) 1/m
 
 
@@ -53,7 +54,7 @@ def place_elements(shape: WingShape, root: FloatArray) -> Elements:
         dy = node[e + 1, 1] - node[e, 1]
         dz = node[e + 1, 2] - node[e, 2]
         width[e] = np.sqrt(dx * dx + dy * dy + dz * dz)
-    induced_y, induced_z = wake_influence(position, node)
+    induced_y, induced_z = wake_influence(position, node, EVEN)
     return Elements(
         position,
         shape.velocity,
@@ -88,8 +89,12 @@ def clearance(elements: Elements) -> float:
 
 
 @kernel
-def wake_influence(position: FloatArray, node: FloatArray) -> tuple[FloatArray, FloatArray]:
+def wake_influence(
+    position: FloatArray, node: FloatArray, parity: float
+) -> tuple[FloatArray, FloatArray]:
     """Velocities along y and z, each (N, N) 1/m, at the controls per circulation of each element.
+
+    The left wing's circulation is the right one's times the `parity`, 1 or -1.
 
     A filament of strength G at distance r in the plane across its axis induces G/(4 pi r); the
     bound vortices' influence on each other is neglected, as published.
@@ -98,33 +103,43 @@ def wake_influence(position: FloatArray, node: FloatArray) -> tuple[FloatArray, 
     induced_y = np.zeros((n, n))
     induced_z = np.zeros((n, n))
     for i in range(n):
-        # The first node lies on the centre line, where nothing is shed for symmetry.
-        for k in range(1, n + 1):
+        # The first node lies on the centre line: where both circulations are equal it sheds none.
+        for k in range(1 if parity > 0.0 else 0, n + 1):
             rz = position[i, 2] - node[k, 2]
             ry = position[i, 1] - node[k, 1]
             ry_mirror = position[i, 1] + node[k, 1]
             square = ry * ry + rz * rz
             square_mirror = ry_mirror * ry_mirror + rz * rz
-            # On a filament itself, where the line runs along the stream: see `clearance`.
-            near = 0.25 / (np.pi * square) if square > 0.0 else np.nan
-            far = 0.25 / (np.pi * square_mirror) if square_mirror > 0.0 else np.nan
-            # Per unit strength backwards, that of the left wing's image being opposite.
+            # On a filament itself, where the line runs along the stream: see `clearance`. That of
+            # the centre line moves no air at itself.
+            itself = 0.0 if k == 0 else np.nan
+            near = 0.25 / (np.pi * square) if square > 0.0 else itself
+            far = parity * 0.25 / (np.pi * square_mirror) if square_mirror > 0.0 else itself
+            # Per unit strength backwards, that of the left wing's image being opposite if even.
             vy = rz * (near - far)
             vz = ry_mirror * far - ry * near
             # Node k sheds the circulation inboard of it minus the one outboard of it.
             if k < n:
                 induced_y[i, k] -= vy
                 induced_z[i, k] -= vz
-            induced_y[i, k - 1] += vy
-            induced_z[i, k - 1] += vz
+            if k > 0:
+                induced_y[i, k - 1] += vy
+                induced_z[i, k - 1] += vz
     return induced_y, induced_z
 
 
 @kernel
 def circulation_system(elements: Elements) -> FloatArray:
+    """Matrix (N, N) of the circulation's linear system of even parity; see `system_of`."""
+    return system_of(elements, elements.induced_y, elements.induced_z)
+
+
+@kernel
+def system_of(elements: Elements, induced_y: FloatArray, induced_z: FloatArray) -> FloatArray:
     """Matrix (N, N) of the circulation's linear system, system @ Gamma = pi c |U| alpha.
 
-    The downwash counts normal to the line's projection on the plane across the body's x axis.
+    `induced_y` and `induced_z` (N, N) 1/m are the wake's influence, of either parity. The downwash
+    counts normal to the line's projection on the plane across the body's x axis.
     """
     n = elements.chord.size
     system = np.empty((n, n))
@@ -133,6 +148,6 @@ def circulation_system(elements: Elements) -> FloatArray:
         dz = elements.node[i + 1, 2] - elements.node[i, 2]
         scale = np.pi * elements.chord[i] / np.sqrt(dy * dy + dz * dz)
         for j in range(n):
-            system[i, j] = scale * (elements.induced_z[i, j] * dy - elements.induced_y[i, j] * dz)
+            system[i, j] = scale * (induced_z[i, j] * dy - induced_y[i, j] * dz)
         system[i, i] += 1.0
     return system

@@ -10,16 +10,19 @@ from typing import NamedTuple
 import numpy as np
 
 from birdmb._kernels import kernel
-from birdmb._typing import FloatArray
+from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.airframe import Airframe, airframe_loads
-from birdmb.aerodynamics.circulation import section_flow
 from birdmb.aerodynamics.elements import (
+    ODD,
     Elements,
     circulation_system,
     clearance,
     place_elements,
+    system_of,
+    wake_influence,
 )
 from birdmb.aerodynamics.tail import TailSurface, tail_influence
+from birdmb.aerodynamics.twist_loads import mirror_sign, mirrored_flow, wing_flow, wing_wrench
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.stacked import StackedShapes, every_second_shape, shape_at, wing_shapes
 
@@ -129,88 +132,82 @@ def at_phase(stack: Elements, k: int) -> Elements:
     )
 
 
+class OddWing(NamedTuple):
+    """Influences at P phases where the left wing's circulations are opposite to the right one's."""
+
+    induced_y: FloatArray  # (P, N, N) 1/m, as those of `Elements`
+    induced_z: FloatArray  # (P, N, N) 1/m
+    inverse: FloatArray  # (P, N, N) of the circulation's linear system
+
+
+def no_odd_wing() -> OddWing:
+    """The influences of odd parity of symmetric flight, where none are needed: at no phase."""
+    return OddWing(np.empty((0, 0, 0)), np.empty((0, 0, 0)), np.empty((0, 0, 0)))
+
+
 @kernel
-def bird_loads(
-    wing: PrescribedWing, k: int, frame: Airframe, u: float, w: float, q: float
+def odd_wing(wing: PrescribedWing) -> OddWing:
+    """Influences and inverses of odd parity of a tabulated wing; NaN as in its own inverses."""
+    count, n = wing.elements.chord.shape
+    induced_y, induced_z = np.empty((count, n, n)), np.empty((count, n, n))
+    inverse = np.full((count, n, n), np.nan)
+    for k in range(count):
+        placed = at_phase(wing.elements, k)
+        induced_y[k], induced_z[k] = wake_influence(placed.position, placed.node, ODD)
+        if wing.clearance[k] >= 0.0:
+            inverse[k] = np.linalg.inv(system_of(placed, induced_y[k], induced_z[k]))
+    return OddWing(induced_y, induced_z, inverse)
+
+
+@kernel
+def symmetric_loads(
+    wing: PrescribedWing, k: int, frame: Airframe, twist: FloatArray, directions: IntArray
 ) -> FloatArray:
-    """Loads of the whole bird at the k-th phase, moving at u, w (m/s) and q (rad/s).
+    """Wrench of the air (6, 1 + d) at the k-th phase on a bird in symmetric flight, exact.
 
-    Rows F_x, F_z (N), M_y (N m); columns: value, d/du, d/dw, d/dq; (3, 4), exact.
+    Of its `twist` (6,) v, p and r are zero, and none of them is among the `directions`.
     """
-    total, circulation = resultant_and_derivatives(
-        at_phase(wing.elements, k), wing.inverse[k], frame.density, frame.profile, u, w, q
+    elements = at_phase(wing.elements, k)
+    flow = wing_flow(elements, twist, directions)
+    circulation = wing.inverse[k] @ flow.bound
+    total = 2.0 * wing_wrench(
+        elements,
+        flow,
+        circulation,
+        elements.induced_y @ circulation,
+        elements.induced_z @ circulation,
+        frame.density,
+        frame.profile,
     )
-    return total + airframe_loads(frame, wing.at_tail[k] @ circulation, u, w, q)
+    for component in (1, 3, 5):  # of the other wing opposite
+        total[component] = 0.0
+    return total + airframe_loads(frame, wing.at_tail[k] @ circulation, twist, directions)
 
 
 @kernel
-def resultant_and_derivatives(
-    elements: Elements,
-    inverse: FloatArray,
-    density: float,
-    profile: float,
-    u: float,
-    w: float,
-    q: float,
-) -> tuple[FloatArray, FloatArray]:
-    """Loads (3, 4) of both wings and circulations (N, 4) m2/s of the right one.
-
-    Rows F_x, F_z (N), M_y (N m); columns: value, d/du, d/dw, d/dq. The wind is affine in u, w, q,
-    so the derivatives are exact.
-    """
-    n = elements.chord.size
-    wind, speed, alpha = section_flow(elements, u, w, q)
-    bound = np.empty((n, 4))
-    # Change of the wind by u, w, q: the velocities of the body's points, reversed.
-    change = np.zeros((n, 3, 4))
-    for e in range(n):
-        c, nn, t = elements.chord_direction[e], elements.normal[e], elements.span_direction[e]
-        change[e, 0, 1] = -1.0
-        change[e, 2, 2] = -1.0
-        change[e, 0, 3] = -elements.position[e, 2]
-        change[e, 2, 3] = elements.position[e, 0]
-        factor = np.pi * elements.chord[e]
-        along = wind[e, 0] * t[0] + wind[e, 1] * t[1] + wind[e, 2] * t[2]
-        px, py, pz = wind[e, 0] - along * t[0], wind[e, 1] - along * t[1], wind[e, 2] - along * t[2]
-        up = px * nn[0] + py * nn[1] + pz * nn[2]
-        back = px * c[0] + py * c[1] + pz * c[2]
-        section = up * up + back * back
-        bound[e, 0] = factor * speed[e] * alpha[e]
-        for m in range(1, 4):
-            dx, dz = change[e, 0, m], change[e, 2, m]
-            d_along = dx * t[0] + dz * t[2]
-            gx, gy, gz = dx - d_along * t[0], -d_along * t[1], dz - d_along * t[2]
-            d_speed = (px * gx + py * gy + pz * gz) / speed[e]
-            d_up = gx * nn[0] + gy * nn[1] + gz * nn[2]
-            d_back = gx * c[0] + gy * c[1] + gz * c[2]
-            d_alpha = (back * d_up - up * d_back) / section
-            bound[e, m] = factor * (d_speed * alpha[e] + speed[e] * d_alpha)
-    circulation = inverse @ bound
-    vy = elements.induced_y @ circulation
-    vz = elements.induced_z @ circulation
-    total = np.zeros((3, 4))
-    for e in range(n):
-        t = elements.span_direction[e]
-        gamma = circulation[e, 0]
-        x, y, z = wind[e, 0], wind[e, 1] + vy[e, 0], wind[e, 2] + vz[e, 0]
-        scale = 2.0 * density * elements.width[e]
-        # The profile drag, per `scale`: on the wind without the induced velocity.
-        relative = np.sqrt(wind[e, 0] ** 2 + wind[e, 1] ** 2 + wind[e, 2] ** 2)
-        drag = 0.5 * profile * elements.chord[e]
-        for m in range(4):
-            if m == 0:
-                fx = gamma * (y * t[2] - z * t[1]) + drag * relative * wind[e, 0]
-                fz = gamma * (x * t[1] - y * t[0]) + drag * relative * wind[e, 2]
-            else:
-                wx, wz = change[e, 0, m], change[e, 2, m]
-                dx, dy, dz = wx, vy[e, m], wz + vz[e, m]
-                g = circulation[e, m]
-                fx = g * (y * t[2] - z * t[1]) + gamma * (dy * t[2] - dz * t[1])
-                fz = g * (x * t[1] - y * t[0]) + gamma * (dx * t[1] - dy * t[0])
-                d_relative = (wind[e, 0] * wx + wind[e, 2] * wz) / relative
-                fx += drag * (d_relative * wind[e, 0] + relative * wx)
-                fz += drag * (d_relative * wind[e, 2] + relative * wz)
-            total[0, m] += scale * fx
-            total[1, m] += scale * fz
-            total[2, m] += scale * (elements.position[e, 2] * fx - elements.position[e, 0] * fz)
-    return total, circulation
+def free_loads(
+    wing: PrescribedWing,
+    odd: OddWing,
+    k: int,
+    frame: Airframe,
+    twist: FloatArray,
+    directions: IntArray,
+) -> FloatArray:
+    """Wrench of the air (6, 1 + d) at the k-th phase on a symmetric bird in any motion, exact."""
+    elements = at_phase(wing.elements, k)
+    right = wing_flow(elements, twist, directions)
+    left = mirrored_flow(elements, twist, directions)
+    even = wing.inverse[k] @ (0.5 * (right.bound + left.bound))
+    opposite = odd.inverse[k] @ (0.5 * (right.bound - left.bound))
+    even_y, even_z = elements.induced_y @ even, elements.induced_z @ even
+    odd_y, odd_z = odd.induced_y[k] @ opposite, odd.induced_z[k] @ opposite
+    density, profile = frame.density, frame.profile
+    total = wing_wrench(
+        elements, right, even + opposite, even_y + odd_y, even_z + odd_z, density, profile
+    )
+    image = wing_wrench(
+        elements, left, even - opposite, even_y - odd_y, even_z - odd_z, density, profile
+    )
+    for component in range(6):
+        total[component] += mirror_sign(component) * image[component]
+    return total + airframe_loads(frame, wing.at_tail[k] @ even, twist, directions)

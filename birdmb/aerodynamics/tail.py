@@ -105,36 +105,41 @@ def tail_angle(tail: TailSurface, wind_x: float, wind_z: float) -> float:
 
 
 @kernel
-def tail_force(tail: TailSurface, density: float, wind_x: float, wind_z: float) -> FloatArray:
-    """Force of the tail in a wind (m/s) at its centre of pressure, both with the downwash.
+def tail_force(tail: TailSurface, density: float, wind: FloatArray) -> FloatArray:
+    """Force (N) of the tail in a wind (3,) m/s at its centre of pressure, with the downwash.
 
-    Rows F_x, F_z (N); columns: value, derivatives by `wind_x` and `wind_z`; (2, 3). Lift square to
-    the wind, L = pi/4 rho alpha U^2 b^2 (R. T. Jones, NACA Report 835, 1946); induced drag, half of
-    L alpha, and laminar friction, 1/2 rho U^2 S 1.328/sqrt(U c/nu), along it.
+    Columns: value, derivatives with respect to the wind; (3, 4). Lift square to the wind in the
+    plane of symmetry, L = pi/4 rho alpha U^2 b^2 (R. T. Jones, NACA Report 835, 1946), and induced
+    drag, half of L alpha, along it; laminar friction, 1/2 rho V^2 S 1.328/sqrt(V c/nu), along the
+    whole wind V. A flat plate has no other side force.
     """
-    force = np.zeros((2, 3))
-    speed = np.sqrt(wind_x * wind_x + wind_z * wind_z)
+    force = np.zeros((3, 4))
+    x, y, z = wind
+    speed, whole = np.sqrt(x * x + z * z), np.sqrt(x * x + y * y + z * z)
     if tail.span == 0.0 or speed == 0.0:
         return force
-    alpha = tail_angle(tail, wind_x, wind_z)
+    alpha = tail_angle(tail, x, z)
     lift = 0.25 * np.pi * density * tail.span**2
     friction = 0.5 * density * tail.area * 1.328 * np.sqrt(tail.viscosity / tail.chord)
     across = lift * alpha * speed
-    along = 0.5 * lift * alpha**2 * speed + friction * np.sqrt(speed)
-    force[0, 0] = -across * wind_z + along * wind_x
-    force[1, 0] = across * wind_x + along * wind_z
-    speed_slope = (wind_x / speed, wind_z / speed)
-    alpha_slope = (-wind_z / speed**2, wind_x / speed**2)
-    for i in range(2):
-        across_slope = lift * (alpha_slope[i] * speed + alpha * speed_slope[i])
-        along_slope = (
-            lift * alpha * alpha_slope[i] * speed
-            + 0.5 * (lift * alpha**2 + friction / np.sqrt(speed)) * speed_slope[i]
-        )
-        force[0, i + 1] = -across_slope * wind_z + along_slope * wind_x
-        force[1, i + 1] = across_slope * wind_x + along_slope * wind_z
+    along = 0.5 * lift * alpha**2 * speed
+    force[0, 0] = -across * z + along * x
+    force[2, 0] = across * x + along * z
+    for j in (0, 2):
+        speed_slope = wind[j] / speed
+        alpha_slope = (-z if j == 0 else x) / speed**2
+        across_slope = lift * (alpha_slope * speed + alpha * speed_slope)
+        along_slope = lift * alpha * (alpha_slope * speed + 0.5 * alpha * speed_slope)
+        force[0, j + 1] = -across_slope * z + along_slope * x
+        force[2, j + 1] = across_slope * x + along_slope * z
     force[0, 1] += along
-    force[0, 2] -= across
-    force[1, 1] += across
-    force[1, 2] += along
+    force[0, 3] -= across
+    force[2, 1] += across
+    force[2, 3] += along
+    drag = friction * np.sqrt(whole)
+    for i in range(3):
+        force[i, 0] += drag * wind[i]
+        for j in range(3):
+            force[i, j + 1] += 0.5 * drag * wind[i] * wind[j] / whole**2
+        force[i, i + 1] += drag
     return force

@@ -19,6 +19,8 @@ from birdmb.cli.options import (
     MethodChoice,
     ModelChoice,
     ModelName,
+    MotionChoice,
+    MotionOption,
     Segments,
     StepsPerBeat,
     Tolerance,
@@ -87,12 +89,15 @@ def cycle(
     topology: Topology,
     model: Annotated[
         ModelName,
+        MotionChoice,
+        MotionOption,
         typer.Option(
             metavar="MODEL",
             help="multibody: body and wings with mass, joints prescribed or compliant (Exudyn). "
             "rigid: massless wings, all joints prescribed.",
         ),
     ] = ModelName.MULTIBODY,
+    motion: MotionOption = MotionChoice.PLANAR,
     assignments: Assignments = None,
     out: Annotated[
         Path | None,
@@ -145,6 +150,7 @@ def cycle(
             bird,
             Search(
                 model=model.value,
+                motion=motion.value,
                 segments=segments,
                 tolerance=tolerance,
                 max_iterations=max_iterations,

@@ -104,7 +104,7 @@ def _tail_and_drag(bird: Bird) -> list[tuple[str, str, str]]:
     if bird.drag.profile_coefficient:
         rows.append(("profile drag coefficient", f"{bird.drag.profile_coefficient:.4g}", ""))
     if bird.drag.body:
-        drag = -body_drag_force(body_drag(bird), _DRAG_SPEED, 0.0)[0, 0]
+        drag = -body_drag_force(body_drag(bird), np.array([_DRAG_SPEED, 0.0, 0.0]))[0, 0]
         rows.append((f"body drag at {_DRAG_SPEED:g} m/s", f"{drag:.3g}", "N"))
     return rows
 

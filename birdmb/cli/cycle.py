@@ -40,7 +40,7 @@ def run(
         prepare(out)
     progress = Progress(messages())
     with at_work(progress, out):
-        model = model_of(bird, search.model, search.steps_per_beat)
+        model = model_of(bird, search.model, search.motion, search.steps_per_beat)
         cycle = _found(model, search, guess, progress)
         progress.doing("loads and power over the beat")
         validity = assess_validity(cycle)

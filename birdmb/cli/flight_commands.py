@@ -13,6 +13,8 @@ from birdmb.cli.options import (
     Json,
     ModelChoice,
     ModelName,
+    MotionChoice,
+    MotionOption,
     Speed,
     Topology,
     Workers,
@@ -34,6 +36,7 @@ commands = typer.Typer()
 def flights(
     topology: Topology,
     model: ModelChoice = ModelName.MULTIBODY,
+    motion: MotionOption = MotionChoice.PLANAR,
     assignments: Assignments = None,
     out: Annotated[
         Path | None,
@@ -58,7 +61,7 @@ def flights(
 
         from birdmb.cli.flights import run  # noqa: PLC0415 - not before the bird is sound
 
-        run(bird, model.value, out=out, as_json=json)
+        run(bird, model.value, motion.value, out=out, as_json=json)
 
 
 @commands.command(

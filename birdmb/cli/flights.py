@@ -25,19 +25,22 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from birdmb.models import FlightCycle
+    from birdmb.models.motion import MotionName
     from birdmb.studies import Validity
     from birdmb.topology import Bird
 
 _STYLES = {"stable": "green", "unstable": "red", "undecided": "yellow"}
 
 
-def run(bird: Bird, model_name: str, *, out: Path | None, as_json: bool) -> None:
+def run(
+    bird: Bird, model_name: str, motion: MotionName, *, out: Path | None, as_json: bool
+) -> None:
     """Find the flights of a bird, list them on standard output and write them into `out`."""
     if out is not None:
         prepare(out)
     progress = Progress(messages())
     with at_work(progress, out):
-        cycles = _found(bird, model_name, progress)
+        cycles = _found(bird, model_name, motion, progress)
         progress.doing("loads and power over the beats")
         validity = [assess_validity(cycle) for cycle in cycles]
         objects: list[dict[str, object]] = [
@@ -66,8 +69,10 @@ def run(bird: Bird, model_name: str, *, out: Path | None, as_json: bool) -> None
         raise typer.Exit(NO_CYCLE)
 
 
-def _found(bird: Bird, model_name: str, progress: Progress) -> list[FlightCycle]:
-    model = model_of(bird, model_name, None)
+def _found(
+    bird: Bird, model_name: str, motion: MotionName, progress: Progress
+) -> list[FlightCycle]:
+    model = model_of(bird, model_name, motion, None)
     announce(model, model_name, progress)
     progress.doing("laying out the starts")
     found = find_limit_cycles(model, deflations=deflations_for(model), callback=told(progress))

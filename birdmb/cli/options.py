@@ -21,6 +21,13 @@ class ModelName(StrEnum):
     RIGID = "rigid"
 
 
+class MotionChoice(StrEnum):
+    """Which motions of the body are free."""
+
+    PLANAR = "planar"
+    FREE = "free"
+
+
 class Method(StrEnum):
     """How the limit cycle is searched for."""
 
@@ -65,6 +72,15 @@ Assignments = Annotated[
 ]
 ModelChoice = Annotated[
     ModelName, typer.Option(metavar="MODEL", help="multibody or rigid, as for `birdmb cycle`.")
+]
+MotionOption = Annotated[
+    MotionChoice,
+    typer.Option(
+        "--motion",
+        metavar="MOTION",
+        help="planar: symmetric longitudinal flight. free: in space, with lateral modes; the "
+        "rigid model's.",
+    ),
 ]
 Segments = Annotated[
     int | None,

@@ -72,16 +72,20 @@ def _orbit(cycle: FlightCycle) -> Table:
 
 
 def _multipliers(cycle: FlightCycle) -> Table:
-    table = table_of(
-        "Floquet multipliers", "Re", "Im", "modulus", "error", "a disturbance", numbers=(0, 1, 2, 3)
-    )
+    columns = ["Re", "Im", "modulus", "error", "a disturbance"]
+    in_space = cast("WingModel", cycle.model).motion.lateral.any()
+    if in_space:
+        columns.append("mode")
+    table = table_of("Floquet multipliers", *columns, numbers=(0, 1, 2, 3))
     for i, (value, error) in enumerate(zip(cycle.multipliers, cycle.verdict_errors, strict=True)):
+        mode = cycle.flight_modes[i]
         table.add_row(
             _number(value.real),
             _number(value.imag) if value.imag else "",
             _number(abs(value)),
             f"{error:.0e}",
-            growth(cycle, i),
+            growth(cycle, i).partition(" (")[0] if in_space else growth(cycle, i),
+            *([mode.name or mode.plane] if in_space else []),
             style="red" if abs(value) - error > 1 else None,
         )
     return table

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from birdmb.models import FlightCycle
+    from birdmb.models import FlightCycle, FlightMode
     from birdmb.models.wing_model import WingModel
     from birdmb.studies import Validity
 
@@ -28,6 +28,7 @@ def result_object(cycle: FlightCycle, validity: Validity, model_name: str) -> di
         "bird": bird.name,
         "fingerprint": bird.fingerprint(),
         "model": model_name,
+        "motion": model.motion.name,
         "birdmb_version": version("birdmb"),
         "x0": dict(zip(cycle.state_names, _numbers(cycle.x0), strict=True)),
         "start_time": cycle.start_time,
@@ -45,6 +46,7 @@ def result_object(cycle: FlightCycle, validity: Validity, model_name: str) -> di
         "multiplier_errors": _numbers(cycle.multiplier_errors),
         "multiplier_integration_errors": _numbers(cycle.multiplier_integration_errors),
         "doubling_times": _numbers(cycle.doubling_times),
+        "modes": [_mode(mode) for mode in cycle.flight_modes],
         "stability": cycle.stability,
         "verdict": verdict_sentence(cycle),
         "failed_checks": list(cycle.failed_checks),
@@ -70,6 +72,18 @@ def result_object(cycle: FlightCycle, validity: Validity, model_name: str) -> di
         "largest_angle_of_attack": validity.largest_angle_of_attack,
         "largest_tail_angle": finite(validity.largest_tail_angle),
         "validity_warnings": list(validity.warnings),
+    }
+
+
+def _mode(mode: FlightMode) -> dict[str, object]:
+    """A mode: multiplier as real and imaginary part, times in s."""
+    return {
+        "plane": mode.plane,
+        "name": mode.name,
+        "multiplier": [mode.multiplier.real, mode.multiplier.imag],
+        "error": finite(mode.error),
+        "doubling_time": finite(mode.doubling_time),
+        "participation": mode.participation,
     }
 
 

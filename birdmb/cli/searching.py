@@ -10,7 +10,7 @@ import numpy as np
 
 from birdmb._typing import FloatArray
 from birdmb.cli.models import model_class
-from birdmb.cli.outcome import SearchFailed
+from birdmb.cli.outcome import InputError, SearchFailed
 from birdmb.cli.results import finite, taken_as_prescribed
 from birdmb.errors import OrbitError, StateError
 from birdmb.models import MultibodyModel, RigidModel
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from birdmb.cli.progress import Progress
     from birdmb.cli.saved_guess import SavedGuess
     from birdmb.models import FlightCycle
+    from birdmb.models.motion import MotionName
     from birdmb.orbits.newton import Damping
     from birdmb.orbits.search import SearchMethod
     from birdmb.topology import Bird
@@ -49,6 +50,7 @@ class Search:
     """What the options say about model and search; see `find_limit_cycle`."""
 
     model: str
+    motion: MotionName
     segments: int | None
     tolerance: float
     max_iterations: int
@@ -70,9 +72,24 @@ class Search:
         }
 
 
-def model_of(bird: Bird, name: str, steps_per_beat: int | None) -> RigidModel | MultibodyModel:
-    """The model of a bird that the option --model names."""
-    return model_class(name)(bird, steps_per_beat=steps_per_beat)
+def model_of(
+    bird: Bird, name: str, motion: MotionName, steps_per_beat: int | None
+) -> RigidModel | MultibodyModel:
+    """The model of a bird that the options --model and --motion name.
+
+    Raises:
+        InputError: the model has no such motion.
+        TopologyError: the bird lacks what the motion needs.
+    """
+    kind = model_class(name)
+    if issubclass(kind, RigidModel):
+        return kind(bird, motion=motion, steps_per_beat=steps_per_beat)
+    if motion != "planar":
+        raise InputError(
+            f"--motion {motion} is of the rigid model: the multibody one flies in its plane of "
+            "symmetry alone. Add --model rigid."
+        )
+    return kind(bird, steps_per_beat=steps_per_beat)
 
 
 def announce(model: RigidModel | MultibodyModel, name: str, progress: Progress) -> None:

@@ -54,10 +54,10 @@ def run(
 
 def ignored_springs(bird: Bird, model: ModelFactory) -> str:
     """Which springs of the bird its model has not, as a sentence; empty if there are none."""
-    if not ignored_values(bird, model):
-        return ""
+    ignored = ignored_values(bird, model)
     sprung = [joint.name for joint in bird.compliant_joints]
     sprung += [feather.hinge_name for feather in bird.hinged_feathers]
+    sprung = [name for name in sprung if f"{name}.stiffness" in ignored]
     return f"The rigid model ignores the springs of {', '.join(sprung)}." if sprung else ""
 
 

@@ -4,6 +4,7 @@ from birdmb.models.beat import Beat
 from birdmb.models.energy import Work
 from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
+from birdmb.models.flight_modes import FlightMode
 from birdmb.models.gusts import CosineGust, GaussianGust, Gust, StepGust
 from birdmb.models.loads import Loads, TailLoads
 from birdmb.models.multibody import MultibodyModel
@@ -16,6 +17,7 @@ __all__ = [
     "CosineGust",
     "Flight",
     "FlightCycle",
+    "FlightMode",
     "GaussianGust",
     "Gust",
     "Loads",

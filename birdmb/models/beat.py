@@ -19,12 +19,14 @@ class Beat:
     """(K,) s."""
     states: FloatArray
     """(K, n)."""
+    twists: FloatArray
+    """(K, 6) m/s and rad/s, of the body."""
     loads_along: LoadsAlong
     """At K instants."""
     joint_rates: FloatArray
     """(K, A) rad/s, of the joints and the feathers' hinges."""
     actuator_torques: FloatArray
-    """(K, A) N m, that actuator, or spring and damper, put on each joint and hinge of one wing."""
+    """(K, A) N m, of actuators, or springs and dampers, on joints and hinges of both wings."""
     driver_rates: FloatArray
     """(K, A) rad/s, of the joints' drivers; 0 of hinges."""
 
@@ -50,31 +52,31 @@ class Beat:
 
     @property
     def air_torques(self) -> FloatArray:
-        """Torques of the air (K, A) N m about each joint and hinge of one wing."""
-        return self.loads_along.stack.joint_torques
+        """Torques of the air (K, A) N m about each joint and hinge, left and right together."""
+        stack = self.loads_along.stack
+        return stack.joint_torques + stack.left_joint_torques
 
     @cached_property
     def joint_power(self) -> FloatArray:
         """Power (K, A) W into each pair of joints or hinges, left and right together."""
-        return 2.0 * self.actuator_torques * self.joint_rates
+        return self.actuator_torques * self.joint_rates
 
     @cached_property
     def air_power(self) -> FloatArray:
         """Power (K,) W of the air on the whole bird: on the body and about the joints."""
-        u, w, q = self.states[:, 0], self.states[:, 1], self.states[:, 2]
-        on_body = self.force[:, 0] * u + self.force[:, 2] * w + self.moment[:, 1] * q
+        wrench = np.hstack([self.force, self.moment])
         about_joints = self.air_torques * self.joint_rates
-        return np.asarray(on_body + 2.0 * about_joints.sum(axis=1))
+        return np.asarray((wrench * self.twists).sum(axis=1) + about_joints.sum(axis=1))
 
     @cached_property
     def driver_power(self) -> FloatArray:
         """Power (K, A) W of the drivers of each pair of joints; 0 of hinges."""
-        return 2.0 * self.actuator_torques * self.driver_rates
+        return self.actuator_torques * self.driver_rates
 
     @cached_property
     def dissipation(self) -> FloatArray:
         """Power (K, 4) W lost to the air by lift, profile drag, tail and body."""
-        return self.loads_along.dissipation(self.states[:, :3])
+        return self.loads_along.dissipation(self.twists)
 
     @property
     def tail_angle(self) -> FloatArray:

@@ -15,7 +15,9 @@ from birdmb.aerodynamics.prescribed import driven_at
 from birdmb.errors import ArgumentError
 from birdmb.models.beat import Beat
 from birdmb.models.energy import Work, work_by_sign
+from birdmb.models.flight_modes import FlightMode, flight_modes
 from birdmb.models.loads import DISSIPATORS
+from birdmb.models.motion import SPACE_STATES, heading_velocity
 from birdmb.models.stepped_cycle import SteppedCycle
 from birdmb.models.wing_model import STEPS_PER_BEAT
 
@@ -27,10 +29,11 @@ _LARGEST_IMBALANCE = 0.01
 _LARGEST_INTEGRATION_ERROR = 0.01
 # Loads are of higher degree in the states than one.
 _INSTANTS_PER_NODE = 2
+_THETA = SPACE_STATES.index("theta")
 
 
 def world_velocity(states: FloatArray) -> FloatArray:
-    """Forward speed and climb rate (K, 2) m/s of the body in the world, from states (K, n)."""
+    """Forward speed and climb rate (K, 2) m/s in planar motion, from states u, w, q, theta ..."""
     u, w, theta = states[:, 0], states[:, 1], states[:, 3]
     c, s = np.cos(theta), np.sin(theta)
     return np.column_stack([u * c + w * s, u * s - w * c])
@@ -60,6 +63,7 @@ class FlightCycle(SteppedCycle):
         return Beat(
             times=times,
             states=states,
+            twists=model.body_in_space(states)[:, :6],
             loads_along=loads.taken(ends),
             joint_rates=model.joint_motion_along(times, states)[1],
             actuator_torques=torques[ends],
@@ -77,14 +81,24 @@ class FlightCycle(SteppedCycle):
         return times, self.trajectory(times).states
 
     @cached_property
+    def _mean_in_space(self) -> FloatArray:
+        """Mean states in space (8,)."""
+        return _mean(self.bird_model.body_in_space(self._states_of_beat[1]))
+
+    @cached_property
+    def _mean_along_heading(self) -> FloatArray:
+        """Mean velocity (3,) m/s forward, to the right and upwards, seen along the heading."""
+        return _mean(heading_velocity(self.bird_model.body_in_space(self._states_of_beat[1])))
+
+    @property
     def mean_velocity(self) -> FloatArray:
-        """Mean forward speed and climb rate (2,) m/s in the world."""
-        return _mean(world_velocity(self._states_of_beat[1]))
+        """Mean forward speed, along the heading, and climb rate (2,) m/s."""
+        return self._mean_along_heading[[0, 2]]
 
     @property
     def mean_speed(self) -> float:
-        """Modulus of the mean velocity, m/s: the way made good in a beat over its period."""
-        return float(np.hypot(*self.mean_velocity))
+        """Modulus of the mean velocity, m/s; in straight flight the way made good per time."""
+        return float(np.linalg.norm(self._mean_along_heading))
 
     @property
     def mean_climb_rate(self) -> float:
@@ -94,7 +108,7 @@ class FlightCycle(SteppedCycle):
     @property
     def mean_pitch(self) -> float:
         """Mean pitch angle, rad, nose up positive."""
-        return float(_mean(self._states_of_beat[1][:, 3]))
+        return float(self._mean_in_space[_THETA])
 
     @property
     def path_angle(self) -> float:
@@ -185,7 +199,7 @@ class FlightCycle(SteppedCycle):
         The loads act on the bones, but the lifting line also moves relative to them, with the
         feathers that fan out; `power` counts that motion, torque times rate does not.
         """
-        by_joints = -2.0 * (self.beat.air_torques * self.beat.joint_rates).sum(axis=1)
+        by_joints = -(self.beat.air_torques * self.beat.joint_rates).sum(axis=1)
         return float(_mean(self.beat.wing_power - by_joints))
 
     @property
@@ -196,7 +210,8 @@ class FlightCycle(SteppedCycle):
         """
         model = self.bird_model
         joints = self.beat.joint_power.sum(axis=1)
-        gravity = -model.mass * model.bird.gravity * world_velocity(self.beat.states)[:, 1]
+        climb = heading_velocity(model.body_in_space(self.beat.states))[:, 2]
+        gravity = -model.mass * model.bird.gravity * climb
         exchanged = np.abs(joints) + np.abs(self.beat.air_power) + np.abs(gravity)
         left_over = _mean(joints + self.beat.air_power + gravity)
         return float(np.abs(left_over) / _mean(exchanged))
@@ -218,7 +233,7 @@ class FlightCycle(SteppedCycle):
     @cached_property
     def why_no_flight(self) -> str | None:
         """Why this motion, though it repeats itself, is no flight; `None` if it is one."""
-        forwards, pitch = _mean(self._states_of_beat[1])[[0, 3]]
+        forwards, pitch = self._mean_in_space[[0, _THETA]]
         if np.cos(pitch) <= 0.0:
             angle = f"pitch {np.degrees(pitch):.0f} deg"
             return f"the body stands on its tail or lies on its back ({angle})"
@@ -227,6 +242,11 @@ class FlightCycle(SteppedCycle):
         if self.mean_velocity[0] <= 0.0:
             return f"it moves backwards ({self.mean_velocity[0]:.1f} m/s)"
         return None
+
+    @cached_property
+    def flight_modes(self) -> tuple[FlightMode, ...]:
+        """The modes, by plane and name, in the order of the multipliers."""
+        return flight_modes(self, self.bird_model.motion)
 
     @property
     def sort_key(self) -> tuple[float, ...]:

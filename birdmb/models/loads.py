@@ -93,8 +93,8 @@ class LoadsAlong:
     @cached_property
     def power(self) -> FloatArray:
         """Power (K,) W that the wings' motion relative to the body takes."""
-        force, velocity = self.stack.element_force, self.stack.velocity
-        return np.asarray(-2.0 * (force * velocity).sum(axis=(1, 2)))
+        force = self.stack.element_force + self.stack.left_force
+        return np.asarray(-(force * self.stack.velocity).sum(axis=(1, 2)))
 
     def at(self, k: int) -> Loads:
         """Those at the k-th instant."""
@@ -109,21 +109,31 @@ class LoadsAlong:
         power = float(self.power[k])
         return Loads(tail=of_tail if tail.span > 0.0 else None, power=power, **shared)
 
-    def dissipation(self, body: FloatArray) -> FloatArray:
+    def dissipation(self, twists: FloatArray) -> FloatArray:
         """Power (K, 4) W that each load takes from a bird that moves so in still air.
 
         Of the `DISSIPATORS`: "lift" is that of the lifting line, which is its induced drag,
         "profile" the drag of the wing's sections, "tail" and "body" all of theirs. Minus force
-        times velocity of the point it acts at. `body` (K, 3): u, w (m/s) and q (rad/s).
+        times velocity of the point it acts at. `twists` (K, 6) m/s and rad/s are the body's.
         """
         stack, tail = self.stack, self._frame.tail
-        u, w, q = body.T
-        velocity = stack.velocity.copy()
-        velocity[:, :, 0] += u[:, None] + q[:, None] * stack.position[:, :, 2]
-        velocity[:, :, 2] += w[:, None] - q[:, None] * stack.position[:, :, 0]
-        wing = -2.0 * (stack.element_force * velocity).sum(axis=(1, 2))
-        profile = -2.0 * (stack.profile_drag * velocity).sum(axis=(1, 2))
-        f = stack.tail_force
-        of_tail = -(f[:, 0] * (u + q * tail.z) + f[:, 2] * (w - q * tail.x))
-        of_body = -(stack.body_drag[:, 0] * u + stack.body_drag[:, 2] * w)
+        wing, profile = np.zeros(len(twists)), np.zeros(len(twists))
+        for side, force, drag in (
+            (1.0, stack.element_force, stack.profile_drag),
+            (-1.0, stack.left_force, stack.left_profile_drag),
+        ):
+            mirror = np.array([1.0, side, 1.0])
+            moving = twists[:, :3] * mirror, twists[:, 3:] * mirror * side
+            velocity = stack.velocity + _point_velocity(*moving, stack.position)
+            wing -= (force * velocity).sum(axis=(1, 2))
+            profile -= (drag * velocity).sum(axis=(1, 2))
+        at_tail = np.broadcast_to([tail.x, 0.0, tail.z], (len(twists), 1, 3))
+        tail_moves = _point_velocity(twists[:, :3], twists[:, 3:], at_tail)[:, 0]
+        of_tail = -(stack.tail_force * tail_moves).sum(axis=1)
+        of_body = -(stack.body_drag * twists[:, :3]).sum(axis=1)
         return np.column_stack([wing - profile, profile, of_tail, of_body])
+
+
+def _point_velocity(velocity: FloatArray, spin: FloatArray, position: FloatArray) -> FloatArray:
+    """Velocities (K, N, 3) m/s of points at `position` (K, N, 3) m fixed to a moving body."""
+    return np.asarray(velocity[:, None, :] + np.cross(spin[:, None, :], position))

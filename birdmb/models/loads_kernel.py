@@ -10,10 +10,11 @@ from birdmb._kernels import kernel
 from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.airframe import Airframe, tail_wind
 from birdmb.aerodynamics.body_drag import body_drag_force
-from birdmb.aerodynamics.circulation import element_loads
-from birdmb.aerodynamics.elements import clearance, place_elements
+from birdmb.aerodynamics.circulation import ElementLoads, element_loads
+from birdmb.aerodynamics.elements import Elements, clearance, place_elements
 from birdmb.aerodynamics.joints import hinge_torques, joint_torques
 from birdmb.aerodynamics.tail import tail_angle, tail_force, tail_influence
+from birdmb.aerodynamics.twist_loads import loads_of_both
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.chain import frame_after, joint_chain
 from birdmb.wing.shape import turned
@@ -21,7 +22,10 @@ from birdmb.wing.stacked import StackedShapes, shape_at
 
 
 class StackedLoads(NamedTuple):
-    """Loads at K instants, in body axes; element by element those of the right wing."""
+    """Loads at K instants, in body axes; element by element those of the right wing.
+
+    Mirroring changes the sign of what points along y.
+    """
 
     force: FloatArray  # (K, 3) N, resultant of wings, tail and body
     moment: FloatArray  # (K, 3) N m, about G
@@ -40,6 +44,10 @@ class StackedLoads(NamedTuple):
     circulation: FloatArray  # (K, N) m2/s
     angle_of_attack: FloatArray  # (K, N) rad, geometric
     speed: FloatArray  # (K, N) m/s, in the section's plane
+    left_force: FloatArray  # (K, N, 3) N, on the left wing, mirrored onto the right one
+    left_profile_drag: FloatArray  # (K, N, 3) N, likewise
+    left_circulation: FloatArray  # (K, N) m2/s, likewise
+    left_joint_torques: FloatArray  # (K, A) N m, likewise
     clearance: FloatArray  # (K,) m, of the wings from the plane of symmetry
 
 
@@ -52,13 +60,13 @@ def loads_along(
     frame: Airframe,
     angles: FloatArray,
     rates: FloatArray,
-    motion: FloatArray,
+    twists: FloatArray,
 ) -> StackedLoads:
     """Loads at K instants; NaN where the wings are across the plane of symmetry.
 
     `shape_of` (K,) tells which of the stacked `shapes` belongs to an instant, with the first
-    `turning` joints at zero; `angles` and `rates` (K, A) are those of joints and hinges, `motion`
-    (K, 3) the body's velocity u, w (m/s) through the air and its pitch rate q (rad/s).
+    `turning` joints at zero; `angles` and `rates` (K, A) are those of joints and hinges, `twists`
+    (K, 6) m/s and rad/s the body's relative to the air.
     """
     (count, joints), n = angles.shape, shapes.chord.shape[1]
     stack = StackedLoads(
@@ -79,6 +87,10 @@ def loads_along(
         np.full((count, n), np.nan),
         np.full((count, n), np.nan),
         np.full((count, n), np.nan),
+        np.full((count, n, 3), np.nan),
+        np.full((count, n, 3), np.nan),
+        np.full((count, n), np.nan),
+        np.full((count, joints), np.nan),
         np.empty(count),
     )
     tail = frame.tail
@@ -97,34 +109,51 @@ def loads_along(
         stack.clearance[k] = clearance(placed)
         if not stack.clearance[k] >= 0.0:
             continue
-        u, w, q = motion[k]
-        found = element_loads(placed, frame.density, frame.profile, u, w, q)
-        stack.element_force[k], stack.profile_drag[k] = found.force, found.profile_drag
-        stack.circulation[k] = found.circulation
-        stack.angle_of_attack[k], stack.speed[k] = found.angle_of_attack, found.speed
-        about_joints = joint_torques(wing, chain, placed.position, found.force, shape.beyond)
-        stack.joint_torques[k, : about_joints.size] = about_joints
-        stack.joint_torques[k, about_joints.size :] = hinge_torques(
-            shape.hinge_velocity, found.force
-        )
-        drag = body_drag_force(frame.body, u, w)[:, 0]
-        stack.body_drag[k, 0], stack.body_drag[k, 2] = drag
+        right, left = _of_both_wings(placed, frame, twists[k])
+        stack.element_force[k], stack.profile_drag[k] = right.force, right.profile_drag
+        stack.left_force[k], stack.left_profile_drag[k] = left.force, left.profile_drag
+        stack.circulation[k], stack.left_circulation[k] = right.circulation, left.circulation
+        stack.angle_of_attack[k], stack.speed[k] = right.angle_of_attack, right.speed
+        for force, torques in (
+            (right.force, stack.joint_torques[k]),
+            (left.force, stack.left_joint_torques[k]),
+        ):
+            about_joints = joint_torques(wing, chain, placed.position, force, shape.beyond)
+            torques[: about_joints.size] = about_joints
+            torques[about_joints.size :] = hinge_torques(shape.hinge_velocity, force)
+        stack.body_drag[k] = body_drag_force(frame.body, twists[k, :3])[:, 0]
         if tail.span > 0.0:
-            induced = tail_influence(tail, placed.node) @ found.circulation
-            wind_x, wind_z = tail_wind(tail, induced, u, w, q)
-            of_tail = tail_force(tail, frame.density, wind_x, wind_z)[:, 0]
-            stack.tail_force[k, 0], stack.tail_force[k, 2] = of_tail
-            stack.tail_angle[k] = tail_angle(tail, wind_x, wind_z)
+            even = 0.5 * (right.circulation + left.circulation)
+            induced = tail_influence(tail, placed.node) @ even
+            wind = tail_wind(tail, induced, twists[k])
+            stack.tail_force[k] = tail_force(tail, frame.density, wind)[:, 0]
+            stack.tail_angle[k] = tail_angle(tail, wind[0], wind[2])
             stack.tail_downwash[k] = induced[1]
-        force, pitch = np.zeros(3), 0.0
-        for e in range(n):
-            x, z = placed.position[e, 0], placed.position[e, 2]
-            fx, fz = found.force[e, 0], found.force[e, 2]
-            force[0] += 2.0 * fx
-            force[2] += 2.0 * fz
-            pitch += 2.0 * (z * fx - x * fz)
-        pitch += tail.z * stack.tail_force[k, 0] - tail.x * stack.tail_force[k, 2]
-        stack.force[k] = force + stack.tail_force[k] + stack.body_drag[k]
-        stack.moment[k] = 0.0
-        stack.moment[k, 1] = pitch
+        stack.force[k] = stack.tail_force[k] + stack.body_drag[k]
+        fx, fy, fz = stack.tail_force[k]
+        stack.moment[k, 0] = -tail.z * fy
+        stack.moment[k, 1] = tail.z * fx - tail.x * fz
+        stack.moment[k, 2] = tail.x * fy
+        for side, of_wing in ((1.0, right.force), (-1.0, left.force)):
+            for e in range(n):
+                x, y, z = placed.position[e]
+                fx, fy, fz = of_wing[e]
+                stack.force[k, 0] += fx
+                stack.force[k, 1] += side * fy
+                stack.force[k, 2] += fz
+                stack.moment[k, 0] += side * (y * fz - z * fy)
+                stack.moment[k, 1] += z * fx - x * fz
+                stack.moment[k, 2] += side * (x * fy - y * fx)
     return stack
+
+
+@kernel
+def _of_both_wings(
+    placed: Elements, frame: Airframe, twist: FloatArray
+) -> tuple[ElementLoads, ElementLoads]:
+    """Loads of the right wing and, mirrored onto it, of the left one."""
+    if twist[1] == 0.0 and twist[3] == 0.0 and twist[5] == 0.0:
+        u, w, q = twist[0], twist[2], twist[4]
+        found = element_loads(placed, frame.density, frame.profile, u, w, q)
+        return found, found
+    return loads_of_both(placed, frame.density, frame.profile, twist)

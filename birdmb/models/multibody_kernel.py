@@ -6,7 +6,7 @@ import numpy as np
 
 from birdmb._kernels import kernel
 from birdmb._typing import FloatArray
-from birdmb.aerodynamics.airframe import Airframe, airframe_loads
+from birdmb.aerodynamics.airframe import Airframe, planar_airframe_loads
 from birdmb.aerodynamics.circulation import element_loads, resultant
 from birdmb.aerodynamics.elements import clearance, place_elements
 from birdmb.aerodynamics.joints import hinge_torques, joint_torques
@@ -68,10 +68,10 @@ def air_forces(
     about_joints = joint_torques(wing, chain, placed.position, loads.force, shape.beyond)
     torques = np.concatenate((about_joints, hinge_torques(shape.hinge_velocity, loads.force)))
     total = resultant(placed, loads.force)
-    induced = np.zeros((2, 4))
+    induced = np.zeros(2)
     if frame.tail.span > 0.0:
-        induced[:, 0] = tail_influence(frame.tail, placed.node) @ loads.circulation
-    total += airframe_loads(frame, induced, u, w, pitch_rate)[:, 0]
+        induced = tail_influence(frame.tail, placed.node) @ loads.circulation
+    total += planar_airframe_loads(frame, induced, u, w, pitch_rate)
     return _body_forces(total, theta), torques, distance
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from birdmb._kernels import kernel
 from birdmb._typing import BoolArray, FloatArray, IntArray
-from birdmb.aerodynamics.airframe import Airframe, airframe_loads
+from birdmb.aerodynamics.airframe import Airframe, planar_airframe_loads
 from birdmb.aerodynamics.circulation import (
     lifting_forces,
     profile_drag,
@@ -140,11 +140,11 @@ def _air_loads(
         strengths = circulation[:, r].copy()
         force = lifting_forces(placed, frame.density, winds[r], strengths)
         force += profile_drag(placed, frame.density, frame.profile, winds[r])
-        induced = np.zeros((2, 4))
+        induced = np.zeros(2)
         if frame.tail.span > 0.0:
-            induced[:, 0] = at_tail @ strengths
+            induced = at_tail @ strengths
         u, w, q = through[r]
-        loads[r, :BODY] = resultant(placed, force) + airframe_loads(frame, induced, u, w, q)[:, 0]
+        loads[r, :BODY] = resultant(placed, force) + planar_airframe_loads(frame, induced, u, w, q)
         about_joints = joint_torques(wing, chain, placed.position, force, shape.beyond)
         about_hinges = hinge_torques(shape.hinge_velocity, force)
         loads[r, BODY : BODY + about_joints.size] = 2.0 * about_joints

@@ -1,19 +1,23 @@
-"""The rigid bird: four states, massless wings on their drivers (docs/model.md, section 6)."""
+"""The rigid bird: a body with massless wings on their drivers (docs/model.md, section 6)."""
 
 from collections.abc import Iterator
 from functools import cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.prescribed import (
+    OddWing,
     PrescribedWing,
     driven,
     every_second,
+    no_odd_wing,
+    odd_wing,
     prescribed_wing,
 )
-from birdmb.errors import StateError
+from birdmb.errors import StateError, TopologyError
 from birdmb.models.failures import (
     lifting_line_lost,
     overflow_told,
@@ -23,17 +27,13 @@ from birdmb.models.failures import (
 from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.gusts import Gust
+from birdmb.models.motion import PLANAR, Motion, MotionName, motion_named
 from birdmb.models.rigid_kernel import RigidBody, integrate_rigid, rates_along
 from birdmb.models.starts import INCIDENCES, PATH_ANGLES, SPEEDS, steady_states
 from birdmb.models.trim import mean_trim
-from birdmb.models.wing_model import (
-    BODY_SCALE,
-    BODY_STATES,
-    BODY_UNITS,
-    STEPS_PER_BEAT,
-    WingModel,
-)
+from birdmb.models.wing_model import STEPS_PER_BEAT, WingModel
 from birdmb.topology import Bird
+from birdmb.topology.parts import impossible_moments
 from birdmb.wing.stacked import StackedShapes
 
 _ORDER = 4
@@ -43,8 +43,44 @@ _TABLES_KEPT = 64
 _PHASES = 16  # enough for means over a beat, to guess from
 
 
+class RigidTable(NamedTuple):
+    """The wing at some phases, and what motion in space needs besides."""
+
+    wing: PrescribedWing
+    odd: OddWing
+
+
+def rigid_body(bird: Bird, motion: Motion) -> RigidBody:
+    """The constants of a bird's motion.
+
+    Raises:
+        TopologyError: the bird lacks moments of inertia that the motion needs, or no body has them.
+    """
+    body = bird.body
+    if motion is not PLANAR and (missing := body.missing_moments):
+        raise TopologyError(
+            f"{bird.name}: motion in space needs {' and '.join(f'body.{m}' for m in missing)}, the "
+            "moments of inertia about the body's other axes (kg m2); give them in the topology "
+            "file or with --set."
+        )
+    inertia = body.inertia_tensor
+    if motion is not PLANAR and (why := impossible_moments(inertia)):
+        raise TopologyError(f"{bird.name}: of the body's inertia, {why}.")
+    return RigidBody(
+        body.mass,
+        inertia,
+        np.asarray(np.linalg.inv(inertia), float),
+        bird.gravity,
+        motion.indices,
+        motion.directions,
+    )
+
+
 class RigidModel(WingModel):
     """Rigid body with massless wings; all joints follow their drivers, compliant ones too.
+
+    With motion "planar" in symmetric longitudinal flight, with the states u, w, q and theta; with
+    "free" in space, with the states of `birdmb.models.motion`.
 
     Integrated by classical Runge-Kutta steps, with exact variational equations, over a table of
     the wing at every half step. By default there are as many as keep the estimated error of a beat
@@ -53,16 +89,20 @@ class RigidModel(WingModel):
     """
 
     limit_cycle_type = FlightCycle
-    state_names = BODY_STATES
-    state_units = BODY_UNITS
 
     def __init__(
-        self, bird: Bird, *, steps_per_beat: int | None = None, gust: Gust | None = None
+        self,
+        bird: Bird,
+        *,
+        motion: MotionName = "planar",
+        steps_per_beat: int | None = None,
+        gust: Gust | None = None,
     ) -> None:
         super().__init__(bird, steps_per_beat=steps_per_beat, gust=gust)
-        body = RigidBody(bird.body.mass, bird.body.inertia_yy, bird.gravity)
-        self._constants = (self.airframe, body)
-        self._tables: dict[tuple[float, float, int] | bytes, PrescribedWing] = {}
+        self.motion = motion_named(motion)
+        self.state_names, self.state_units = self.motion.states, self.motion.units
+        self._constants = (self.airframe, rigid_body(bird, self.motion))
+        self._tables: dict[tuple[float, float, int] | bytes, RigidTable] = {}
 
     @cached_property
     def steps_per_beat(self) -> int:
@@ -81,10 +121,10 @@ class RigidModel(WingModel):
         """
         period = self.bird.period
         fine = self._table(0.0, period, steps)
-        coarse = every_second(fine)
+        coarse = self._with_odd(every_second(fine.wing))
         ends = [
             integrate_rigid(
-                table, self._first_guess, period / n, np.zeros((2 * n + 1, 2)), *self._constants
+                *table, self._first_guess, period / n, np.zeros((2 * n + 1, 3)), *self._constants
             )[0][-1]
             for table, n in ((fine, steps), (coarse, steps // 2))
         ]
@@ -92,16 +132,17 @@ class RigidModel(WingModel):
 
     @property
     def state_scale(self) -> FloatArray:
-        """Typical sizes of the states, (4,)."""
-        return np.array(BODY_SCALE)
+        """Typical sizes of the states, (n,)."""
+        return np.array(self.motion.scale)
 
     def rhs(self, t: float, x: npt.ArrayLike) -> FloatArray:
-        """Rates (4,) of the states at time t (s) in state x (4,)."""
+        """Rates (n,) of the states at time t (s) in state x (n,)."""
         times, states = np.array([t]), np.asarray(x, dtype=float)[None, :]
-        return self._along(self.wing_at(times), np.zeros(1, np.int64), times, states)[0][0]
+        table = self._with_odd(self.wing_at(times))
+        return self._along(table, np.zeros(1, np.int64), times, states)[0][0]
 
     def rates(self, times: FloatArray, states: FloatArray) -> FloatArray:
-        """Rates (K, 4) at `times` (K,) s of `states` (K, 4), NaN where these are not finite.
+        """Rates (K, n) at `times` (K,) s of `states` (K, n), NaN where these are not finite.
 
         Raises:
             StateError: the wing has no loads, or the motion is beyond floating point.
@@ -109,40 +150,47 @@ class RigidModel(WingModel):
         return self._along(*self._table_for(times), times, states)[0]
 
     def rate_jacobians(self, times: FloatArray, states: FloatArray) -> FloatArray:
-        """Derivatives (K, 4, 4) of the rates, rows, by the states, columns; exact; as `rates`."""
+        """Derivatives (K, n, n) of the rates, rows, by the states, columns; exact; as `rates`."""
         return self._along(*self._table_for(times), times, states)[1]
 
     def _along(
-        self, wing: PrescribedWing, phase: IntArray, times: FloatArray, states: FloatArray
+        self, table: RigidTable, phase: IntArray, times: FloatArray, states: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
         with overflow_told(self.bird, "the force of the air"):
-            return rates_along(wing, phase, states, self.air_velocities(times), *self._constants)
+            return rates_along(*table, phase, states, self._air(times), *self._constants)
+
+    def _air(self, times: FloatArray) -> FloatArray:
+        """Velocity (K, 3) m/s of the air along the heading, to its right and down."""
+        return np.insert(self.air_velocities(times), 1, 0.0, axis=1)
 
     def flow(self, x0: npt.ArrayLike, t0: float, t1: float) -> FloatArray:
-        """State (4,) at t1 (s) of the flight through x0 (4,) at t0; raises `StateError`."""
+        """State (n,) at t1 (s) of the flight through x0 (n,) at t0; raises `StateError`."""
         return self._integrate(x0, t0, t1)[0][-1]
 
     def flow_jacobian(
         self, x0: npt.ArrayLike, t0: float, t1: float
     ) -> tuple[FloatArray, FloatArray]:
-        """State (4,) at t1 and its derivative (4, 4) by x0, exact for the discrete steps."""
+        """State (n,) at t1 and its derivative (n, n) by x0, exact for the discrete steps."""
         states, _, sensitivity = self._integrate(x0, t0, t1)
         return states[-1], sensitivity
 
     def trajectory(
         self, x0: npt.ArrayLike, t0: float, t1: float, times: npt.ArrayLike | None = None
     ) -> Flight:
-        """The flight from x0 (4,) at t0 to t1 (s), at the integration's steps or at `times`."""
+        """The flight from x0 (n,) at t0 to t1 (s), at the integration's steps or at `times`."""
         states, rates, _ = self._integrate(x0, t0, t1)
         flight = Flight(self.state_names, np.linspace(t0, t1, states.shape[0]), states, rates)
         return flight if times is None else flight.at(times)
 
+    def _options(self) -> dict[str, Any]:
+        return {**super()._options(), "motion": self.motion.name}
+
     def initial_guess(self) -> FloatArray:
-        """State (4,) in which the loads, averaged over a beat, come closest to balance."""
+        """State (n,) in which the loads, averaged over a beat, come closest to balance."""
         return self._first_guess.copy()
 
     def guess_along(self, times: FloatArray) -> FloatArray:
-        """A guess (K, 4) of a limit cycle at `times` (K,) s: the initial guess, held steadily.
+        """A guess (K, n) of a limit cycle at `times` (K,) s: the initial guess, held steadily.
 
         Times that are spread evenly over a beat, and are not few, serve for the means as well.
         """
@@ -150,13 +198,13 @@ class RigidModel(WingModel):
         return np.tile(guess, (times.size, 1))
 
     def starting_paths(self, times: FloatArray) -> Iterator[FloatArray]:
-        """Paths (K, 4) at `times` (K,) s to look for flights from, the guess first.
+        """Paths (K, n) at `times` (K,) s to look for flights from, the guess first.
 
         Then steady flights at several speeds, incidences and path angles.
         """
         yield self.guess_along(times)
         for state in steady_states(self, SPEEDS, INCIDENCES, PATH_ANGLES):
-            yield np.tile(state, (times.size, 1))
+            yield np.tile(self._state_of(state), (times.size, 1))
 
     def _span_a_beat(self, times: FloatArray) -> bool:
         if times.size < _PHASES:
@@ -170,9 +218,13 @@ class RigidModel(WingModel):
         return self._trim(np.linspace(0.0, self.bird.period, _PHASES + 1)[:-1])
 
     def _trim(self, times: FloatArray) -> FloatArray:
-        wing, _ = self._table_for(times)
+        table, _ = self._table_for(times)
         with overflow_told(self.bird, "the flight in which the mean loads balance"):
-            return mean_trim(self.bird, wing, *self._constants)
+            return self._state_of(mean_trim(self.bird, table.wing, self.airframe))
+
+    def _state_of(self, planar: FloatArray) -> FloatArray:
+        """State (n,) of a symmetric flight with the states u, w, q, theta (4,)."""
+        return PLANAR.in_space(planar[None, :])[0, self.motion.indices]
 
     def _integrate(
         self, x0: npt.ArrayLike, t0: float, t1: float
@@ -182,10 +234,10 @@ class RigidModel(WingModel):
         refuse_runaway(self.bird, self.state_names, start, self.state_scale, t0)
         table, gusts = (
             self._table(t0 % self.bird.period, t1 - t0, steps),
-            self.air_velocities(np.linspace(t0, t1, 2 * steps + 1)),
+            self._air(np.linspace(t0, t1, 2 * steps + 1)),
         )
         with overflow_told(self.bird, f"the flight from t = {t0:.4g} to {t1:.4g} s"):
-            found = integrate_rigid(table, start, (t1 - t0) / steps, gusts, *self._constants)
+            found = integrate_rigid(*table, start, (t1 - t0) / steps, gusts, *self._constants)
         if not np.isfinite(found[0]).all():
             raise StateError(
                 f"{self.bird.name}: the flight from t = {t0:.4g} s diverged before "
@@ -196,31 +248,35 @@ class RigidModel(WingModel):
     def _described(self, x: FloatArray) -> str:
         return ", ".join(f"{n} = {v:.4g}" for n, v in zip(self.state_names, x, strict=True))
 
-    def _table(self, t0: float, duration: float, steps: int) -> PrescribedWing:
+    def _table(self, t0: float, duration: float, steps: int) -> RigidTable:
         """The wing at every half step from t0 on; kept, for flows ask for the same ones again."""
         times = t0 + duration * np.arange(2 * steps + 1) / max(2 * steps, 1)
         return self._kept((t0, duration, steps), times)
 
-    def _table_for(self, times: FloatArray) -> tuple[PrescribedWing, IntArray]:
+    def _table_for(self, times: FloatArray) -> tuple[RigidTable, IntArray]:
         """The wing at the distinct ones of `times` (K,), and which of them each is; kept too."""
         if (times[1:] > times[:-1]).all():
             return self._kept(times.tobytes(), times), np.arange(times.size)
         distinct, phase = np.unique(times, return_inverse=True)
         return self._kept(distinct.tobytes(), distinct), phase
 
-    def _kept(self, key: tuple[float, float, int] | bytes, times: FloatArray) -> PrescribedWing:
+    def _kept(self, key: tuple[float, float, int] | bytes, times: FloatArray) -> RigidTable:
         table = self._tables.get(key)
         if table is None:
             if len(self._tables) >= _TABLES_KEPT:
                 self._tables.clear()
-            table = self._tables[key] = self.wing_at(times)
+            table = self._tables[key] = self._with_odd(self.wing_at(times))
         return table
+
+    def _with_odd(self, wing: PrescribedWing) -> RigidTable:
+        """The table with what asymmetric motions need; symmetric ones do without."""
+        return RigidTable(wing, no_odd_wing() if self.motion is PLANAR else odd_wing(wing))
 
     def _shapes_along(
         self, times: FloatArray, _angles: FloatArray, _rates: FloatArray
     ) -> tuple[StackedShapes, IntArray]:
         table, phase = self._table_for(times)
-        return table.shapes, phase
+        return table.wing.shapes, phase
 
     def wing_at(self, times: FloatArray) -> PrescribedWing:
         """The wing on its drivers at `times` (P,) s; raises `StateError` where it has no loads."""

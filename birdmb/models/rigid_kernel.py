@@ -1,4 +1,10 @@
-"""Compiled integration of the rigid four-state bird and of its variational equations."""
+"""Compiled equations of motion of the rigid bird in space, their derivatives and integration.
+
+Equations (Etkin & Reid, Dynamics of Flight, 1996, chapter 4), in body axes about the centre of
+mass: m (V' + omega x V) = F + m g, I omega' + omega x I omega = M, phi' = p + tan(theta) (q
+sin(phi) + r cos(phi)), theta' = q cos(phi) - r sin(phi). Planar flight is their restriction to its
+states.
+"""
 
 from typing import NamedTuple
 
@@ -7,110 +13,217 @@ import numpy as np
 from birdmb._kernels import kernel
 from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.airframe import Airframe
-from birdmb.aerodynamics.prescribed import PrescribedWing, bird_loads
+from birdmb.aerodynamics.prescribed import OddWing, PrescribedWing, free_loads, symmetric_loads
+
+_PHI, _THETA, _SIZE = 6, 7, 8
 
 
 class RigidBody(NamedTuple):
     """The constants of the body's motion."""
 
     mass: float  # kg
-    inertia: float  # kg m2, in pitch
+    inertia: FloatArray  # (3, 3) kg m2, about G
+    inverse: FloatArray  # (3, 3), of the inertia
     gravity: float  # m/s2
+    states: IntArray  # (n,) positions of the model's states among those in space
+    directions: IntArray  # (d,) those of them that belong to the twist
+
+
+@kernel
+def _times(matrix: FloatArray, x: float, y: float, z: float) -> tuple[float, float, float]:
+    # Numbers, not arrays: for products as small as these making arrays would take most of the time.
+    return (
+        matrix[0, 0] * x + matrix[0, 1] * y + matrix[0, 2] * z,
+        matrix[1, 0] * x + matrix[1, 1] * y + matrix[1, 2] * z,
+        matrix[2, 0] * x + matrix[2, 1] * y + matrix[2, 2] * z,
+    )
+
+
+@kernel
+def _turn(phi: float, theta: float, turn: FloatArray) -> None:
+    """Write the axes of the heading along those of the body, (3, 3), and their slopes.
+
+    `turn` (3, 3, 3): the axes, their derivatives with respect to phi, and to theta.
+    """
+    cr, sr, c, s = np.cos(phi), np.sin(phi), np.cos(theta), np.sin(theta)
+    turn[0, 0, 0], turn[0, 0, 1], turn[0, 0, 2] = c, 0.0, -s
+    turn[0, 1, 0], turn[0, 1, 1], turn[0, 1, 2] = s * sr, cr, c * sr
+    turn[0, 2, 0], turn[0, 2, 1], turn[0, 2, 2] = s * cr, -sr, c * cr
+    turn[1, 0, 0], turn[1, 0, 1], turn[1, 0, 2] = 0.0, 0.0, 0.0
+    turn[1, 1, 0], turn[1, 1, 1], turn[1, 1, 2] = s * cr, -sr, c * cr
+    turn[1, 2, 0], turn[1, 2, 1], turn[1, 2, 2] = -s * sr, -cr, -c * sr
+    turn[2, 0, 0], turn[2, 0, 1], turn[2, 0, 2] = -s, 0.0, -c
+    turn[2, 1, 0], turn[2, 1, 1], turn[2, 1, 2] = c * sr, 0.0, -s * sr
+    turn[2, 2, 0], turn[2, 2, 1], turn[2, 2, 2] = c * cr, 0.0, -s * cr
 
 
 @kernel
 def rigid_rates(
     wing: PrescribedWing,
+    odd: OddWing,
     k: int,
-    x: FloatArray,
-    gust: FloatArray,
+    states: FloatArray,
+    air: FloatArray,
     frame: Airframe,
     body: RigidBody,
 ) -> tuple[FloatArray, FloatArray]:
-    """Rates (4,) of u, w, q, theta at the k-th tabulated phase, and their Jacobian (4, 4).
+    """Rates (n,) of the states (n,) at the k-th tabulated phase, and their Jacobian (n, n).
 
-    `gust` (2,) m/s is the velocity of the air in the world, along X (forward) and Z (down).
+    `air` (3,) m/s is the velocity of the air along the heading, to the right of it and down.
     """
-    u, w, q, theta = x
-    s, c = np.sin(theta), np.cos(theta)
-    air_u, air_w = gust[0] * c - gust[1] * s, gust[0] * s + gust[1] * c
-    loads = bird_loads(wing, k, frame, u - air_u, w - air_w, q)
-    rates = np.empty(4)
-    rates[0] = -q * w - body.gravity * s + loads[0, 0] / body.mass
-    rates[1] = q * u + body.gravity * c + loads[1, 0] / body.mass
-    rates[2] = loads[2, 0] / body.inertia
-    rates[3] = q
-    jacobian = np.zeros((4, 4))
+    x, n = np.zeros(_SIZE), states.size
+    for i in range(n):
+        x[body.states[i]] = states[i]
+    turn = np.empty((3, 3, 3))
+    _turn(x[_PHI], x[_THETA], turn)
+    twist = x[:6].copy()
+    wx, wy, wz = _times(turn[0], air[0], air[1], air[2])
+    twist[0], twist[1], twist[2] = twist[0] - wx, twist[1] - wy, twist[2] - wz
+    if body.directions.size == 6:
+        found = free_loads(wing, odd, k, frame, twist, body.directions)
+    else:
+        found = symmetric_loads(wing, k, frame, twist, body.directions)
+
+    wrench, slopes = found[:, 0].copy(), np.zeros((6, _SIZE))
+    for m in range(body.directions.size):
+        for i in range(6):
+            slopes[i, body.directions[m]] = found[i, m + 1]
+    for a in range(2):
+        # As the body turns, the air's velocity turns in its axes.
+        wx, wy, wz = _times(turn[a + 1], air[0], air[1], air[2])
+        for i in range(6):
+            slopes[i, _PHI + a] = -slopes[i, 0] * wx - slopes[i, 1] * wy - slopes[i, 2] * wz
+    _add_weight(body, turn, wrench, slopes)
+    _take_inertia(body, x, wrench, slopes)
+
+    rates, jacobian = np.zeros(_SIZE), np.zeros((_SIZE, _SIZE))
     for i in range(3):
-        weight = body.inertia if i == 2 else body.mass
-        for m in range(3):
-            jacobian[i, m] = loads[i, m + 1] / weight
-        # As the body turns, the gust turns in its axes.
-        jacobian[i, 3] = (loads[i, 1] * air_w - loads[i, 2] * air_u) / weight
-    jacobian[0, 1] -= q
-    jacobian[0, 2] -= w
-    jacobian[0, 3] -= body.gravity * c
-    jacobian[1, 0] += q
-    jacobian[1, 2] += u
-    jacobian[1, 3] -= body.gravity * s
-    jacobian[3, 2] = 1.0
-    return rates, jacobian
+        rates[i] = wrench[i] / body.mass
+    rates[3], rates[4], rates[5] = _times(body.inverse, wrench[3], wrench[4], wrench[5])
+    for m in range(_SIZE):
+        for i in range(3):
+            jacobian[i, m] = slopes[i, m] / body.mass
+        jacobian[3, m], jacobian[4, m], jacobian[5, m] = _times(
+            body.inverse, slopes[3, m], slopes[4, m], slopes[5, m]
+        )
+    _write_attitude(x, rates, jacobian)
+    own_rates, own_jacobian = np.empty(n), np.empty((n, n))
+    for i in range(n):
+        own_rates[i] = rates[body.states[i]]
+        for j in range(n):
+            own_jacobian[i, j] = jacobian[body.states[i], body.states[j]]
+    return own_rates, own_jacobian
+
+
+@kernel
+def _add_weight(body: RigidBody, turn: FloatArray, wrench: FloatArray, slopes: FloatArray) -> None:
+    """Add the weight to a wrench (6,) and its derivatives (6, 8) with respect to the states."""
+    weight = body.mass * body.gravity
+    for i in range(3):
+        wrench[i] += weight * turn[0, i, 2]
+        slopes[i, _PHI] += weight * turn[1, i, 2]
+        slopes[i, _THETA] += weight * turn[2, i, 2]
+
+
+@kernel
+def _take_inertia(body: RigidBody, x: FloatArray, wrench: FloatArray, slopes: FloatArray) -> None:
+    """Take off what turning axes need at steady components: m omega x V and omega x I omega."""
+    u, v, w, p, q, r = x[:6]
+    wrench[0] -= body.mass * (q * w - r * v)
+    wrench[1] -= body.mass * (r * u - p * w)
+    wrench[2] -= body.mass * (p * v - q * u)
+    for i, j, spin, velocity in ((0, 1, r, w), (1, 2, p, u), (2, 0, q, v)):
+        slopes[i, j] += body.mass * spin
+        slopes[j, i] -= body.mass * spin
+        slopes[i, 3 + j] -= body.mass * velocity
+        slopes[j, 3 + i] += body.mass * velocity
+    hx, hy, hz = _times(body.inertia, p, q, r)
+    wrench[3] -= q * hz - r * hy
+    wrench[4] -= r * hx - p * hz
+    wrench[5] -= p * hy - q * hx
+    for m in range(3):
+        ax, ay, az = body.inertia[0, m], body.inertia[1, m], body.inertia[2, m]
+        slopes[3, 3 + m] -= q * az - r * ay
+        slopes[4, 3 + m] -= r * ax - p * az
+        slopes[5, 3 + m] -= p * ay - q * ax
+    for i, j, momentum in ((3, 4, hz), (4, 5, hx), (5, 3, hy)):
+        slopes[i, j] -= momentum
+        slopes[j, i] += momentum
+
+
+@kernel
+def _write_attitude(x: FloatArray, rates: FloatArray, jacobian: FloatArray) -> None:
+    """Write the rates of phi and theta and their derivatives with respect to the states (8,)."""
+    p, q, r, phi, theta = x[3:]
+    cr, sr, slope = np.cos(phi), np.sin(phi), np.tan(theta)
+    yawing = q * sr + r * cr
+    rates[_PHI] = p + slope * yawing
+    rates[_THETA] = q * cr - r * sr
+    jacobian[_PHI, 3], jacobian[_PHI, 4], jacobian[_PHI, 5] = 1.0, slope * sr, slope * cr
+    jacobian[_PHI, _PHI] = slope * rates[_THETA]
+    jacobian[_PHI, _THETA] = (1.0 + slope * slope) * yawing
+    jacobian[_THETA, 4], jacobian[_THETA, 5] = cr, -sr
+    jacobian[_THETA, _PHI] = -yawing
 
 
 @kernel
 def rates_along(
     wing: PrescribedWing,
+    odd: OddWing,
     phase: IntArray,
     states: FloatArray,
-    gusts: FloatArray,
+    air: FloatArray,
     frame: Airframe,
     body: RigidBody,
 ) -> tuple[FloatArray, FloatArray]:
-    """Rates (K, 4) of `states` (K, 4) at tabulated phases (K,), and their Jacobians (K, 4, 4).
+    """Rates (K, n) of `states` (K, n) at tabulated phases (K,), and their Jacobians (K, n, n).
 
-    `gusts` (K, 2) m/s as for `rigid_rates`. NaN where a state is not finite.
+    `air` (K, 3) m/s as for `rigid_rates`. NaN where a state is not finite.
     """
-    rates = np.full(states.shape, np.nan)
-    jacobians = np.full((states.shape[0], 4, 4), np.nan)
-    for i in range(states.shape[0]):
+    count, n = states.shape
+    rates, jacobians = np.full((count, n), np.nan), np.full((count, n, n), np.nan)
+    for i in range(count):
         if np.isfinite(states[i]).all():
-            rates[i], jacobians[i] = rigid_rates(wing, phase[i], states[i], gusts[i], frame, body)
+            rates[i], jacobians[i] = rigid_rates(
+                wing, odd, phase[i], states[i], air[i], frame, body
+            )
     return rates, jacobians
 
 
 @kernel
 def integrate_rigid(
     wing: PrescribedWing,
+    odd: OddWing,
     x0: FloatArray,
     step: float,
-    gusts: FloatArray,
+    air: FloatArray,
     frame: Airframe,
     body: RigidBody,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Classical Runge-Kutta steps over a table at every half step.
 
-    `gusts` (2 steps + 1, 2) m/s, as for `rigid_rates`. Returns the states (steps + 1, 4), their
-    rates, and the derivative (4, 4) of the last state by the first.
+    `air` (2 steps + 1, 3) m/s, as for `rigid_rates`. Returns the states (steps + 1, n), their
+    rates, and the derivative (n, n) of the last state with respect to the first.
     """
-    steps = (wing.inverse.shape[0] - 1) // 2
-    states = np.empty((steps + 1, 4))
-    rates = np.empty((steps + 1, 4))
+    steps, n = (wing.inverse.shape[0] - 1) // 2, x0.size
+    states = np.empty((steps + 1, n))
+    rates = np.empty((steps + 1, n))
     states[0] = x0
     x = x0.copy()
-    sensitivity = np.eye(4)
+    sensitivity = np.eye(n)
     for i in range(steps):
-        k, g = 2 * i, gusts[2 * i + 1]
-        k1, j1 = rigid_rates(wing, k, x, gusts[k], frame, body)
+        k, g = 2 * i, air[2 * i + 1]
+        k1, j1 = rigid_rates(wing, odd, k, x, air[k], frame, body)
         s1 = j1 @ sensitivity
-        k2, j2 = rigid_rates(wing, k + 1, x + 0.5 * step * k1, g, frame, body)
+        k2, j2 = rigid_rates(wing, odd, k + 1, x + 0.5 * step * k1, g, frame, body)
         s2 = j2 @ (sensitivity + 0.5 * step * s1)
-        k3, j3 = rigid_rates(wing, k + 1, x + 0.5 * step * k2, g, frame, body)
+        k3, j3 = rigid_rates(wing, odd, k + 1, x + 0.5 * step * k2, g, frame, body)
         s3 = j3 @ (sensitivity + 0.5 * step * s2)
-        k4, j4 = rigid_rates(wing, k + 2, x + step * k3, gusts[k + 2], frame, body)
+        k4, j4 = rigid_rates(wing, odd, k + 2, x + step * k3, air[k + 2], frame, body)
         s4 = j4 @ (sensitivity + step * s3)
         x = x + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
         sensitivity = sensitivity + step / 6.0 * (s1 + 2.0 * s2 + 2.0 * s3 + s4)
         rates[i] = k1
         states[i + 1] = x
-    rates[steps], _ = rigid_rates(wing, 2 * steps, x, gusts[2 * steps], frame, body)
+    rates[steps], _ = rigid_rates(wing, odd, 2 * steps, x, air[2 * steps], frame, body)
     return states, rates, sensitivity

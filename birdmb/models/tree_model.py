@@ -239,14 +239,14 @@ class TreeModel(WingModel):
     def actuator_torques_along(
         self, times: FloatArray, states: FloatArray, loads: LoadsAlong
     ) -> FloatArray:
-        """Torques (K, A) N m that move joints and hinges of one wing.
+        """Torques (K, A) N m that move joints and hinges, left and right together.
 
         Of the actuators that hold prescribed joints to their drivers, inertia included; of spring
         and damper where a joint is compliant.
         """
         _, forces = self._accelerations(times, states, loads)
         right = forces[:, self._right_wing]
-        return right + self._spring_torques_along(times, states)
+        return 2.0 * (right + self._spring_torques_along(times, states))
 
     def _shapes_along(
         self, times: FloatArray, angles: FloatArray, rates: FloatArray

@@ -10,9 +10,8 @@ from scipy.optimize import least_squares
 from birdmb._kernels import kernel
 from birdmb._typing import FloatArray
 from birdmb.aerodynamics.airframe import Airframe
-from birdmb.aerodynamics.prescribed import PrescribedWing, bird_loads
+from birdmb.aerodynamics.prescribed import PrescribedWing, symmetric_loads
 from birdmb.errors import StateError
-from birdmb.models.rigid_kernel import RigidBody
 from birdmb.topology import Bird
 
 # Bounds of u, w (m/s) and theta (rad).
@@ -24,7 +23,7 @@ _SMALLEST_DAMPING = 0.1
 _SETTLED = 1e-16  # (m/s2)^2
 
 
-def mean_trim(bird: Bird, wing: PrescribedWing, frame: Airframe, body: RigidBody) -> FloatArray:
+def mean_trim(bird: Bird, wing: PrescribedWing, frame: Airframe) -> FloatArray:
     """State (4,) u, w, q = 0, theta that balances the mean loads of a body held steady.
 
     `wing` holds phases at equal distances over a whole beat. Where no state balances them, the one
@@ -33,7 +32,8 @@ def mean_trim(bird: Bird, wing: PrescribedWing, frame: Airframe, body: RigidBody
     """
 
     def imbalance(y: FloatArray) -> FloatArray:
-        return np.asarray(_imbalance(wing, frame, body, y))
+        weights = (bird.body.mass, bird.body.inertia_yy, bird.gravity)
+        return np.asarray(_imbalance(wing, frame, *weights, y))
 
     def residual(y: FloatArray) -> FloatArray:
         return imbalance(y)[:, 0]
@@ -68,24 +68,34 @@ def mean_trim(bird: Bird, wing: PrescribedWing, frame: Airframe, body: RigidBody
 
 
 @kernel
-def _imbalance(wing: PrescribedWing, frame: Airframe, body: RigidBody, y: FloatArray) -> FloatArray:
+def _imbalance(
+    wing: PrescribedWing,
+    frame: Airframe,
+    mass: float,
+    inertia: float,
+    gravity: float,
+    y: FloatArray,
+) -> FloatArray:
     """Mean accelerations (3,) m/s2 at u, w, theta, and their derivatives by these; (3, 4).
 
     The third is the pitching moment's at the tail of the body's radius of gyration, to weigh like
     the others.
     """
     phases = wing.inverse.shape[0]
-    total = np.zeros((3, 4))
+    twist = np.array([y[0], 0.0, y[1], 0.0, 0.0, 0.0])
+    velocities = np.array([0, 2])
+    wrench = np.zeros((6, 3))
     for k in range(phases):
-        total += bird_loads(wing, k, frame, y[0], y[1], 0.0)
-    total[:2] /= body.mass * phases
-    total[2] /= np.sqrt(body.mass * body.inertia) * phases
+        wrench += symmetric_loads(wing, k, frame, twist, velocities)
+    total = np.zeros((3, 4))
+    total[0, :3] = wrench[0] / (mass * phases)
+    total[1, :3] = wrench[2] / (mass * phases)
+    total[2, :3] = wrench[4] / (np.sqrt(mass * inertia) * phases)
     s, c = np.sin(y[2]), np.cos(y[2])
-    total[0, 0] -= body.gravity * s
-    total[1, 0] += body.gravity * c
-    total[:, 3] = 0.0
-    total[0, 3] = -body.gravity * c
-    total[1, 3] = -body.gravity * s
+    total[0, 0] -= gravity * s
+    total[1, 0] += gravity * c
+    total[0, 3] = -gravity * c
+    total[1, 3] = -gravity * s
     return total
 
 

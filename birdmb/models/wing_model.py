@@ -19,22 +19,19 @@ from birdmb.models.flight import Flight
 from birdmb.models.gusts import Gust
 from birdmb.models.loads import Loads, LoadsAlong
 from birdmb.models.loads_kernel import loads_along
+from birdmb.models.motion import PLANAR, Motion, along_body
 from birdmb.topology import Bird
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.stacked import StackedShapes, shape_at, wing_shapes
 
 # Divisible by 1 to 6: that many shooting segments then share one grid of steps.
 STEPS_PER_BEAT = 60
-BODY_STATES = ("u", "w", "q", "theta")
-BODY_UNITS = ("m/s", "m/s", "rad/s", "rad")
-BODY_SCALE = (10.0, 2.0, 1.0, 0.2)
+BODY_STATES, BODY_UNITS, BODY_SCALE = PLANAR.states, PLANAR.units, PLANAR.scale
+_ANGLES = ("phi", "theta")
 
 
 class WingModel(ABC):
-    """A bird in symmetric longitudinal flight, with the loads of its wings.
-
-    The body's states are `u`, `w` (m/s, velocity of the body's centre of mass along the body's x
-    and z axes), `q` (rad/s, pitch rate) and `theta` (rad, pitch angle), nose up positive.
+    """A bird with the loads of its wings; the first states are the body's, see `Motion`.
 
     Args:
         bird: the bird.
@@ -44,6 +41,7 @@ class WingModel(ABC):
 
     state_names: tuple[str, ...]
     state_units: tuple[str, ...]
+    motion: Motion = PLANAR
     # How many joints at the shoulder are left out of the wing's shape: they turn it as a whole.
     turning = 0
 
@@ -109,8 +107,8 @@ class WingModel(ABC):
 
     @property
     def state_periods(self) -> FloatArray:
-        """Periods (n,) of the states: of the pitch angle a full turn, infinite of the others."""
-        turns = [2.0 * np.pi if name == "theta" else np.inf for name in self.state_names]
+        """Periods (n,) of the states: a full turn of roll and pitch angle, infinite of others."""
+        turns = [2.0 * np.pi if name in _ANGLES else np.inf for name in self.state_names]
         return np.array(turns)
 
     @property
@@ -125,8 +123,12 @@ class WingModel(ABC):
         return float(2.0 * np.sum(elements.chord * elements.width))
 
     def body_state(self, x: FloatArray) -> FloatArray:
-        """The body's part u, w, q, theta (4,) of a state."""
-        return x[:4]
+        """The body's part of a state, u, w, q, theta (4,) in planar motion."""
+        return x[: len(self.motion.states)]
+
+    def body_in_space(self, states: FloatArray) -> FloatArray:
+        """The body's states in space (K, 8), as `SPACE_STATES`, of states (K, n)."""
+        return self.motion.in_space(np.array([self.body_state(x) for x in states]))
 
     def joint_motion(self, t: float, x: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Angles (A,) rad and rates (A,) rad/s of the right wing's joints and hinges at t (s)."""
@@ -142,7 +144,7 @@ class WingModel(ABC):
         return angles, rates
 
     def actuator_torques(self, t: float, x: npt.ArrayLike) -> FloatArray:
-        """Torques (A,) N m that move joints and hinges of one wing, at t (s) in state x (n,).
+        """Torques (A,) N m that move joints and hinges, both wings, at t (s) in state x (n,).
 
         Of massless wings: those that balance the air.
         """
@@ -153,7 +155,7 @@ class WingModel(ABC):
         self, _times: FloatArray, _states: FloatArray, loads: LoadsAlong
     ) -> FloatArray:
         """As `actuator_torques`, (K, A), at `times` (K,) s in states (K, n) with these loads."""
-        return -loads.stack.joint_torques
+        return -(loads.stack.joint_torques + loads.stack.left_joint_torques)
 
     def loads(self, t: float, x: npt.ArrayLike) -> Loads:
         """Aerodynamic loads at time t (s) in state x (n,).
@@ -184,7 +186,7 @@ class WingModel(ABC):
                 self.airframe,
                 angles,
                 rates,
-                self._motion_through_air(times, states),
+                self._twist_through_air(times, states),
             )
         misplaced = ~(stack.clearance >= 0.0)
         if misplaced.any():
@@ -200,12 +202,12 @@ class WingModel(ABC):
         shapes = wing_shapes(self.wing, angles, rates, *self.discretisation)
         return shapes, np.arange(len(angles))
 
-    def _motion_through_air(self, times: FloatArray, states: FloatArray) -> FloatArray:
-        """Velocity u, w (m/s) of the body through the air, and its pitch rate q (rad/s), (K, 3)."""
-        u, w, q, theta = np.array([self.body_state(x) for x in states]).T
+    def _twist_through_air(self, times: FloatArray, states: FloatArray) -> FloatArray:
+        """Twist (K, 6) of the body relative to the air, m/s and rad/s."""
+        space = self.body_in_space(states)
         forward, down = self.air_velocities(times).T
-        c, s = np.cos(theta), np.sin(theta)
-        return np.column_stack([u - forward * c + down * s, w - forward * s - down * c, q])
+        air = np.column_stack([forward, np.zeros(times.size), -down])
+        return np.hstack([space[:, :3] - along_body(space, air), space[:, 3:6]])
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle as the call that makes the model: compiled tables are made again where needed."""

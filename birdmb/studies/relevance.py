@@ -17,6 +17,8 @@ from birdmb.topology.unused import SPRING, unused_values
 
 # So many birds are looked at, before a value that none of them uses is refused.
 _LOOKED_AT = 200
+_OF_MOTION_IN_SPACE = ("body.inertia_xx", "body.inertia_zz", "body.inertia_xz")
+_PLANAR = 'the bird flies in its plane of symmetry; take a model with motion="free"'
 
 
 def check_relevant(bird: Bird, vary: Mapping[str, Sequence[Any]], model: ModelFactory) -> None:
@@ -33,7 +35,7 @@ def check_relevant(bird: Bird, vary: Mapping[str, Sequence[Any]], model: ModelFa
     ignored = ignored_values(bird, model)
     for name in vary:
         if name in ignored:
-            raise _without_effect(name, f"{ignored[name]}; take the multibody model")
+            raise _without_effect(name, ignored[name])
     reasons = dict.fromkeys(vary, "")
     for varied in _variations(bird, vary):
         unused = unused_values(varied)
@@ -52,13 +54,17 @@ def _without_effect(name: str, reason: str) -> ArgumentError:
 def ignored_values(bird: Bird, model: ModelFactory) -> dict[str, str]:
     """Why a model ignores values of any bird like this, by dotted name; empty if it uses all."""
     kind: Any = model
+    motion = "planar"
     while isinstance(kind, partial):
-        kind = kind.func
+        motion, kind = kind.keywords.get("motion", motion), kind.func
+    names = {} if motion == "free" else dict.fromkeys(_OF_MOTION_IN_SPACE, _PLANAR)
     if not (isinstance(kind, type) and issubclass(kind, RigidModel)):
-        return {}
-    springs = "the rigid model has no springs, all joints follow their drivers"
-    mass = "the wings of the rigid model have no mass"
-    names = {f"{joint.name}.{key}": springs for joint in bird.joints for key in (*SPRING, "mode")}
+        return names
+    springs = (
+        "the rigid model has no springs, all joints follow their drivers; take the multibody model"
+    )
+    mass = "the wings of the rigid model have no mass; take the multibody model"
+    names |= {f"{joint.name}.{key}": springs for joint in bird.joints for key in (*SPRING, "mode")}
     names |= {
         f"segments.{bone}.{key}": mass
         for bone in BONES

@@ -71,11 +71,14 @@ def scale_bird(like: Bird, mass: float) -> ScaledBird:
         "name": f"{like.name}_{mass:g}kg",
         "gait.frequency": allometric_frequency(mass),
         "body.mass": like.body.mass * heavier,
-        "body.inertia_yy": like.body.inertia_yy * heavier * longer**2,
         "wing.root.x": like.wing.root.x * chord,
         "wing.root.z": like.wing.root.z * chord,
         **_wings(like, bones, feathers),
     }
+    for axes in ("xx", "yy", "zz", "xz"):
+        moment = getattr(like.body, f"inertia_{axes}")
+        if moment is not None:
+            values[f"body.inertia_{axes}"] = moment * heavier * longer**2
     for bone in BONES:
         segment, name = getattr(like.segments, bone), f"segments.{bone}"
         values[f"{name}.mass"] = segment.mass * heavier

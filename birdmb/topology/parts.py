@@ -28,6 +28,7 @@ from pydantic import (
 )
 from pydantic_core import PydanticCustomError
 
+from birdmb._typing import FloatArray
 from birdmb.topology.messages import BRANCH, problem, shown
 from birdmb.topology.names import Label
 from birdmb.topology.numbers import (
@@ -110,6 +111,44 @@ class Body(Part):
     inertia_yy: Inertia = Field(
         description="pitch moment of inertia about the body's centre of mass, kg m2"
     )
+    inertia_xx: Inertia | None = Field(
+        default=None, description="roll moment of inertia, kg m2; only motion in space needs it"
+    )
+    inertia_zz: Inertia | None = Field(
+        default=None, description="yaw moment of inertia, kg m2; only motion in space needs it"
+    )
+    inertia_xz: Moment = Field(
+        default=0.0,
+        description="off-diagonal element of the inertia tensor, minus the product of inertia, "
+        "kg m2",
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_tensor(cls, data: Any) -> Any:
+        if not isinstance(data, Mapping) or "inertia" not in data:
+            return data
+        given = dict(data)
+        tensor = given.pop("inertia")
+        if "inertia_yy" in given:
+            raise problem("given twice, as inertia and inertia_yy; keep one", "inertia")
+        return given | _moments(tensor)
+
+    @property
+    def missing_moments(self) -> tuple[str, ...]:
+        """Names of the moments of inertia that are not given."""
+        return tuple(n for n in ("inertia_xx", "inertia_zz") if getattr(self, n) is None)
+
+    @property
+    def inertia_tensor(self) -> FloatArray:
+        """Inertia tensor (3, 3) about the centre of mass, kg m2; diagonal where not all is given.
+
+        A moment that is not given is taken as that in pitch; planar motion does not depend on it.
+        """
+        xx = self.inertia_yy if self.inertia_xx is None else self.inertia_xx
+        zz = self.inertia_yy if self.inertia_zz is None else self.inertia_zz
+        xz = 0.0 if self.missing_moments else self.inertia_xz
+        return np.array([[xx, 0.0, xz], [0.0, self.inertia_yy, 0.0], [xz, 0.0, zz]])
 
 
 class Discretisation(Part):
@@ -194,6 +233,29 @@ def _from_diagonal(value: Any) -> Any:
     return [[moment if i == j else 0.0 for j in range(3)] for i, moment in enumerate(value)]
 
 
+def _moments(value: Any) -> dict[str, Any]:
+    """The body's moments of inertia by key, from three of them or a 3x3 tensor."""
+    rows = _from_diagonal(value)
+    try:
+        tensor = np.array(rows, dtype=float)
+    except (TypeError, ValueError):
+        tensor = np.empty(0)
+    if tensor.shape != (3, 3):
+        raise problem(f"must be three moments or a 3x3 tensor, not {shown(value)}", "inertia")
+    if tensor[0, 1] or tensor[1, 0] or tensor[1, 2] or tensor[2, 1] or tensor[0, 2] != tensor[2, 0]:
+        raise problem(
+            f"{shown(value)} is not that of a body with a plane of symmetry: of the elements off "
+            "the diagonal only xz and zx, equal to each other, may differ from 0",
+            "inertia",
+        )
+    return {
+        "inertia_xx": rows[0][0],
+        "inertia_yy": rows[1][1],
+        "inertia_zz": rows[2][2],
+        "inertia_xz": rows[0][2],
+    }
+
+
 def _possible_inertia(inertia: Tensor) -> Tensor:
     tensor = np.array(inertia)
     round_off = _ROUND_OFF * np.abs(tensor).max()
@@ -203,16 +265,24 @@ def _possible_inertia(inertia: Tensor) -> Tensor:
         raise problem(
             f"{shown(inertia)} kg m2 is next to nothing; 0 makes the segment a point mass"
         )
+    if why := impossible_moments(tensor):
+        raise problem(why)
+    return inertia
+
+
+def impossible_moments(tensor: FloatArray) -> str:
+    """Why no body has this inertia tensor (3, 3), kg m2; empty if one may."""
+    round_off = _ROUND_OFF * np.abs(tensor).max()
     moments = np.linalg.eigvalsh(tensor)[::-1]
     listed = ", ".join(f"{moment:.6g}" for moment in moments)
     if moments[-1] < -round_off:
-        raise problem(f"principal moments {listed} kg m2 must not be negative")
+        return f"principal moments {listed} kg m2 must not be negative"
     if moments[0] > moments[1] + moments[2] + round_off:
-        raise problem(
+        return (
             f"principal moments {listed} kg m2 break the triangle inequality (no body has them); "
             "each must be at most the sum of the other two"
         )
-    return inertia
+    return ""
 
 
 class Segment(Part):

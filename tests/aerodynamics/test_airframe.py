@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from birdmb.aerodynamics.airframe import airframe, airframe_loads
+from birdmb.aerodynamics.airframe import airframe, planar_airframe_loads
 from birdmb.aerodynamics.body_drag import body_drag_force
-from birdmb.aerodynamics.prescribed import bird_loads, prescribed_wing
+from birdmb.aerodynamics.prescribed import free_loads, odd_wing, prescribed_wing, symmetric_loads
 from birdmb.aerodynamics.tail import tail_angle, tail_force, tail_influence, tail_surface
 from birdmb.wing.arrays import wing_arrays
 
@@ -19,8 +19,8 @@ def bird(ibis_tail):
 
 
 def wind(speed, alpha):
-    """Along x and z, meeting a plate along the body at this angle."""
-    return -speed * np.cos(alpha), -speed * np.sin(alpha)
+    """In the plane of symmetry, meeting a plate along the body at this angle."""
+    return np.array([-speed * np.cos(alpha), 0.0, -speed * np.sin(alpha)])
 
 
 def test_tail_geometry(bird):
@@ -37,9 +37,9 @@ def test_tail_lift_slope(bird):
     """dL/dalpha = pi/4 x 1.225 x 14^2 x 0.21838214^2 = 8.99319 N."""
     tail = tail_surface(bird)
     h = 1e-5
-    lift = [tail_force(tail, DENSITY, *wind(14.0, a))[1, 0] for a in (h, -h)]
+    lift = [tail_force(tail, DENSITY, wind(14.0, a))[2, 0] for a in (h, -h)]
     # In the wind's axes: the friction's share of F_z is taken off.
-    friction = tail_force(tail, DENSITY, *wind(14.0, 0.0))[0, 0]
+    friction = tail_force(tail, DENSITY, wind(14.0, 0.0))[0, 0]
     slope = (lift[1] - lift[0]) / (2 * h) + friction
     assert slope == pytest.approx(8.99319, rel=1e-5)
 
@@ -51,29 +51,28 @@ def test_tail_drag(bird):
     1/2 x 8.99319 x 0.05^2 = 0.01124149 N.
     """
     tail = tail_surface(bird)
-    force = tail_force(tail, DENSITY, *wind(14.0, 0.05))[:, 0]
-    along = np.array(wind(1.0, 0.05))
-    across = np.array([-along[1], along[0]])
+    force = tail_force(tail, DENSITY, wind(14.0, 0.05))[:, 0]
+    along = wind(1.0, 0.05)
+    across = np.array([-along[2], 0.0, along[0]])
     assert force @ along == pytest.approx(0.00986936 + 0.01124149, rel=1e-5)
     assert force @ across == pytest.approx(8.99319 * 0.05, rel=1e-5)
-    assert across[1] < 0  # lift is upwards
+    assert across[2] < 0  # lift is upwards
 
 
 def test_tail_force_derivatives(bird):
     tail = tail_surface(bird.with_values({"tail.incidence_deg": 3}))
-    at, h = np.array([-13.0, -0.8]), 1e-5
-    exact = tail_force(tail, DENSITY, *at)[:, 1:]
-    steps = h * np.eye(2)
+    at, h = np.array([-13.0, 1.7, -0.8]), 1e-5
+    exact = tail_force(tail, DENSITY, at)[:, 1:]
     columns = [
-        (tail_force(tail, DENSITY, *(at + e)) - tail_force(tail, DENSITY, *(at - e)))[:, 0]
-        for e in steps
+        (tail_force(tail, DENSITY, at + e) - tail_force(tail, DENSITY, at - e))[:, 0]
+        for e in h * np.eye(3)
     ]
-    np.testing.assert_allclose(exact, np.column_stack(columns) / (2 * h), rtol=1e-7)
+    np.testing.assert_allclose(exact, np.column_stack(columns) / (2 * h), rtol=1e-7, atol=1e-9)
 
 
 def test_incidence_adds_to_the_angle_of_attack(bird):
     tilted = tail_surface(bird.with_values({"tail.incidence_deg": 2}))
-    assert tail_angle(tilted, *wind(10.0, 0.03)) == pytest.approx(0.03 + np.radians(2))
+    assert tail_angle(tilted, *wind(10.0, 0.03)[[0, 2]]) == pytest.approx(0.03 + np.radians(2))
 
 
 def test_downwash_of_a_horseshoe_vortex(bird):
@@ -130,7 +129,7 @@ def test_pitching_up_swings_the_tail_down(bird):
 def quiet_loads(bird, u, w, q):
     """Loads of tail and body alone."""
     frame = airframe(bird)
-    return airframe_loads(frame, np.zeros((2, 4)), u, w, q)[:, 0]
+    return planar_airframe_loads(frame, np.zeros(2), u, w, q)
 
 
 def test_a_furled_tail_has_no_loads(bird):
@@ -145,14 +144,15 @@ def test_body_drag_of_the_ibis(bird):
     C_d = 66.6 x 1.2^-0.511 x 6.2511^0.9015 x S^1.063 x Re^-0.197 = 0.2235279; drag 0.2463610 N.
     """
     drag = airframe(bird).body
-    assert body_drag_force(drag, 14.0, 0.0)[0, 0] == pytest.approx(-0.2463610, rel=1e-6)
-    slow, fast = (body_drag_force(drag, u, 0.0)[0, 0] for u in (7.0, 14.0))
+    assert body_drag_force(drag, np.array([14.0, 0.0, 0.0]))[0, 0] == pytest.approx(
+        -0.2463610, rel=1e-6
+    )
+    slow, fast = (body_drag_force(drag, np.array([u, 0.0, 0.0]))[0, 0] for u in (7.0, 14.0))
     assert fast / slow == pytest.approx(2 ** (2 - 0.197))
     own = bird.with_values({"drag.frontal_area": 0.01, "drag.body_coefficient": 0.3})
     # 1/2 x 1.225 x 0.01 x 0.3 x 100
-    assert body_drag_force(airframe(own).body, 6.0, 8.0)[:, 0] == pytest.approx(
-        [-0.18375 * 0.6, -0.18375 * 0.8]
-    )
+    slanting = body_drag_force(airframe(own).body, np.array([6.0, 0.0, 8.0]))[:, 0]
+    assert slanting == pytest.approx([-0.18375 * 0.6, 0.0, -0.18375 * 0.8])
 
 
 @pytest.mark.parametrize("downwash", ["wake", "wake and bound"])
@@ -163,17 +163,57 @@ def test_derivatives_of_all_loads_are_exact(bird, downwash):
     )
     frame = airframe(changed)
     table = prescribed_wing(wing_arrays(changed), frame.tail, np.array([0.04]), 16, 0.5, False)
-    state = np.array([14.0, -0.5, 0.7])
-    exact = bird_loads(table, 0, frame, *state)[:, 1:]
+    twist = np.array([14.0, 0.8, -0.5, -0.4, 0.7, 0.3])
+    everything = np.arange(6)
+
+    def loads(twist):
+        return free_loads(table, odd_wing(table), 0, frame, twist, everything)
+
+    exact = loads(twist)[:, 1:]
     errors = []
     for h in (1e-2, 5e-3):
-        columns = [
-            (bird_loads(table, 0, frame, *(state + e)) - bird_loads(table, 0, frame, *(state - e)))
-            for e in h * np.eye(3)
-        ]
-        differences = np.column_stack([c[:, 0] for c in columns]) / (2 * h)
-        errors.append(np.abs(differences - exact).max())
+        columns = [(loads(twist + e) - loads(twist - e))[:, 0] for e in h * np.eye(6)]
+        errors.append(np.abs(np.column_stack(columns) / (2 * h) - exact).max())
     assert errors[0] / errors[1] == pytest.approx(4, rel=0.05)
+
+
+# At t = 0, 0.04 and 0.17 s, u, w and q: F_x, F_z and M_y (rows) and their derivatives by these, as
+# the kernel for planar flight alone computed them (birdmb at commit 86fd958).
+PLANAR_LOADS = {
+    (0, 14.0, -0.5, 0.7): [
+        [2.167861566158094, -0.6616356664606153, 2.968684590762591, -0.06959740533380314],
+        [-18.93549195481342, -0.446956928409921, -8.658706476594825, -0.17122309291131893],
+        [0.39846178025957546, 0.04089176806255576, -0.09744859741723502, -0.16816477927161813],
+    ],
+    (1, 14.0, -0.5, 0.7): [
+        [1.1122063190540152, -0.22976936570383974, 1.6298552317617458, -0.08155691161085674],
+        [-12.625607296630372, -0.8567153335910020, -5.741179741933035, -0.24628156868398204],
+        [0.5584691184980769, 0.0016673168056861379, 0.11437548050346102, -0.1785640052812692],
+    ],
+    (2, 9.0, 1.2, -2.0): [
+        [-0.11244197717274733, -0.1875612977196069, -0.2505452293980246, -0.05452471295388438],
+        [-2.0645463349785014, -0.8690275709804218, -2.9641350647158653, -0.32305503093400656],
+        [0.17813644863042444, -0.00575947922303923, -0.2781142504476383, -0.11829932293669294],
+    ],
+}
+
+
+@pytest.mark.parametrize("at", PLANAR_LOADS)
+def test_loads_of_symmetric_flight_are_what_they_were(bird, at):
+    changed = bird.with_values(
+        {"tail.downwash": "wake and bound", "tail.incidence_deg": 2, "tail.apex.z": 0.05}
+    )
+    frame, (k, u, w, q) = airframe(changed), at
+    times = np.array([0.0, 0.04, 0.17])
+    table = prescribed_wing(wing_arrays(changed), frame.tail, times, 16, 0.5, False)
+    twist = np.array([u, 0.0, w, 0.0, q, 0.0])
+    planar = symmetric_loads(table, k, frame, twist, np.array([0, 2, 4]))
+    np.testing.assert_allclose(planar[::2], PLANAR_LOADS[at], rtol=1e-12, atol=1e-13)
+    assert not planar[1::2].any()
+    free = free_loads(table, odd_wing(table), k, frame, twist, np.arange(6))
+    np.testing.assert_allclose(free[:, [0, 1, 3, 5]], planar, rtol=1e-12, atol=1e-13)
+    # Sideways motion answers with sideways loads alone.
+    np.testing.assert_allclose(free[::2, [2, 4, 6]], 0.0, atol=1e-12)
 
 
 def test_profile_drag_of_a_still_wing(bird):
@@ -182,11 +222,12 @@ def test_profile_drag_of_a_still_wing(bird):
     held = {f"{name}.{key}": 0.0 for name in names for key in ("offset", "amplitude")}
     still = bird.with_values(held | {"tail.opening_deg": 0, "drag.body": False})
     wing = wing_arrays(still)
+    forwards, no_derivatives = np.array([10.0, 0.0, 0.0, 0.0, 0.0, 0.0]), np.empty(0, int)
     loads = []
     for bare in (still, still.with_values({"drag.profile_coefficient": 0})):
         frame = airframe(bare)
         table = prescribed_wing(wing, frame.tail, np.array([0.0]), 32, 0.5, False)
-        loads.append(bird_loads(table, 0, frame, 10.0, 0.0, 0.0)[:, 0])
+        loads.append(symmetric_loads(table, 0, frame, forwards, no_derivatives)[::2, 0])
     area = 2 * float((table.elements.chord * table.elements.width).sum())
     drag = loads[0] - loads[1]
     assert drag[0] == pytest.approx(-0.02 * 0.5 * DENSITY * 100 * area)

@@ -23,7 +23,7 @@ NUMBERS = {
 # Where 0 is an ordinary number, next to nothing is, too.
 ZERO_IS_ORDINARY = (
     *("root.x", "root.z", "apex.x", "apex.z", "offset", "amplitude", "phase", "rest", "rest_angle"),
-    *("_deg", "incidence", "opening"),
+    *("_deg", "incidence", "opening", "inertia_xz"),
 )
 
 
@@ -65,9 +65,9 @@ def test_the_sentence_says_what_would_be_right_and_why(ibis):
 def similar(bird, length):
     """The bird whose lengths are `length` times as long, similar in Froude number and density."""
     dimensions = {
-        "mass": 3, "inertia": 5, "inertia_yy": 5, "x": 1, "y": 1, "z": 1, "half_thickness": 1,
-        "length": 1, "centre_of_mass": 1, "frequency": -0.5, "stiffness": 4, "damping": 4.5,
-        "chord": 1, "kinematic_viscosity": 1.5,
+        "mass": 3, "inertia": 5, "inertia_xx": 5, "inertia_yy": 5, "inertia_zz": 5, "x": 1, "y": 1,
+        "z": 1, "half_thickness": 1, "length": 1, "centre_of_mass": 1, "frequency": -0.5,
+        "stiffness": 4, "damping": 4.5, "chord": 1, "kinematic_viscosity": 1.5,
     }  # fmt: skip
     values = {}
     for name in bird.value_names():

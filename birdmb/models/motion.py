@@ -1,0 +1,108 @@
+"""Which of the body's six motions a model leaves free: its states, their names, units and sizes.
+
+In space the body has the states u, v, w (m/s, velocity of the centre of mass G along the body's
+axes), p, q, r (rad/s, angular velocity about them), phi and theta (rad, roll and pitch angle).
+Place and heading are ignorable. The axes follow from those of the heading by turning by theta about
+y, then by phi about x.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+
+from birdmb._typing import BoolArray, FloatArray, IntArray
+
+MotionName = Literal["planar", "free"]
+
+SPACE_STATES = ("u", "v", "w", "p", "q", "r", "phi", "theta")
+_UNITS = ("m/s",) * 3 + ("rad/s",) * 3 + ("rad",) * 2
+_SCALE = (10.0, 2.0, 2.0, 1.0, 1.0, 1.0, 0.2, 0.2)
+_LATERAL = ("v", "p", "r", "phi")
+_TWIST = 6
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A choice of the body's states in space; the others are zero.
+
+    Attributes:
+        name: how users ask for it.
+        states: names of its m states, in the order of `SPACE_STATES`.
+    """
+
+    name: MotionName
+    states: tuple[str, ...]
+
+    @cached_property
+    def indices(self) -> IntArray:
+        """Positions (m,) of the states among those in space."""
+        return np.array([SPACE_STATES.index(name) for name in self.states])
+
+    @cached_property
+    def directions(self) -> IntArray:
+        """Components of the twist (6,) that are states."""
+        return self.indices[self.indices < _TWIST]
+
+    @property
+    def units(self) -> tuple[str, ...]:
+        """Units of the states."""
+        return tuple(_UNITS[i] for i in self.indices)
+
+    @property
+    def scale(self) -> tuple[float, ...]:
+        """Typical sizes of the states."""
+        return tuple(_SCALE[i] for i in self.indices)
+
+    @property
+    def lateral(self) -> BoolArray:
+        """Which (m,) of the states are lateral: mirroring the bird changes their sign."""
+        return np.array([name in _LATERAL for name in self.states])
+
+    def in_space(self, states: FloatArray) -> FloatArray:
+        """States in space (K, 8) of `states` (K, n), the first m of which are the body's."""
+        found = np.zeros((len(states), len(SPACE_STATES)))
+        found[:, self.indices] = states[:, : len(self.states)]
+        return found
+
+
+PLANAR = Motion("planar", ("u", "w", "q", "theta"))
+FREE = Motion("free", SPACE_STATES)
+
+
+def motion_named(name: str) -> Motion:
+    """The motion of a name; raises `ValueError` where there is none."""
+    for motion in (PLANAR, FREE):
+        if motion.name == name:
+            return motion
+    raise ValueError(f'motion must be "planar" or "free", not "{name}".')
+
+
+def heading_velocity(space: FloatArray) -> FloatArray:
+    """Velocity (K, 3) m/s forward, to the right and upwards, seen along the heading.
+
+    Of states in space (K, 8).
+    """
+    u, v, w, phi, theta = space[:, [0, 1, 2, 6, 7]].T
+    c, s, cr, sr = np.cos(theta), np.sin(theta), np.cos(phi), np.sin(phi)
+    forward = u * c + (v * sr + w * cr) * s
+    right = v * cr - w * sr
+    up = u * s - (v * sr + w * cr) * c
+    return np.column_stack([forward, right, up])
+
+
+def along_body(space: FloatArray, air: FloatArray) -> FloatArray:
+    """Components (K, 3) along the body's axes of `air` (K, 3) m/s, forward, right and upwards.
+
+    In the attitude of states in space (K, 8).
+    """
+    phi, theta = space[:, [6, 7]].T
+    c, s, cr, sr = np.cos(theta), np.sin(theta), np.cos(phi), np.sin(phi)
+    forward, right, down = air[:, 0], air[:, 1], -air[:, 2]
+    across = forward * s + down * c
+    return np.column_stack(
+        [forward * c - down * s, right * cr + across * sr, across * cr - right * sr]
+    )
