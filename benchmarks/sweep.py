@@ -21,7 +21,7 @@ from rich.console import Console
 from rich.table import Table
 
 import birdmb
-from birdmb.studies.sweeps.point import Outcome, Task
+from birdmb.studies.sweeps.tasks import Outcome, Task
 
 COMPLIANT = Path(__file__).parent.parent / "topologies" / "ibis_compliant_shoulder.toml"
 VARY = {

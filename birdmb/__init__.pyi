@@ -1,4 +1,5 @@
-from .errors import BirdmbError, OrbitError, StateError, TopologyError
+from .errors import ArgumentError, BirdmbError, OrbitError, StateError, TopologyError
+from .figures import plot_gust_response
 from .models import (
     Beat,
     CosineGust,
@@ -35,7 +36,6 @@ from .studies import (
     gust_response,
     parameter_study,
     perturbed_flight,
-    plot_gust_response,
     trim_flight,
     tunnel_and_free_flight,
 )
@@ -46,6 +46,7 @@ from .studies.tail import stability_openings, tail_study
 from .topology import Bird, load_bird
 
 __all__ = [
+    "ArgumentError",
     "Beat",
     "Bird",
     "BirdmbError",

@@ -22,7 +22,6 @@ from importlib.metadata import version
 from pathlib import Path
 from types import CodeType
 from typing import Any, TypeVar
-from uuid import uuid4
 
 from numba import njit
 from numba.core import config as numba_config
@@ -32,6 +31,8 @@ from numba.core.compiler import CompileResult
 from numba.core.dispatcher import Dispatcher
 from numba.core.serialize import dumps
 from numba.misc.appdirs import AppDirs
+
+from birdmb.files import replace_file
 
 KernelT = TypeVar("KernelT", bound=Callable[..., Any])
 
@@ -138,7 +139,7 @@ class _KernelCache(NullCache):
         for folder in cache_folders():
             try:
                 folder.mkdir(parents=True, exist_ok=True)
-                _write_whole(folder / name, content)
+                replace_file(folder / name, content)
             except OSError as error:
                 reasons.append(f"{folder} ({(error.strerror or str(error)).lower()})")
             else:
@@ -170,15 +171,6 @@ class _KernelCache(NullCache):
             if not old.name.startswith(f"{self._stem}{self._fingerprint}."):
                 with suppress(OSError):
                     old.unlink()
-
-
-def _write_whole(path: Path, content: bytes) -> None:
-    draft = path.with_name(f"{path.name}.{uuid4().hex}")
-    try:
-        draft.write_bytes(content)
-        draft.replace(path)
-    finally:
-        draft.unlink(missing_ok=True)
 
 
 @cache

@@ -1,5 +1,7 @@
 """What who ends this process must not find half done: that it starts others."""
 
+from __future__ import annotations
+
 import threading
 
 starting_processes = threading.RLock()

@@ -1,8 +1,14 @@
 """Every error that birdmb raises on purpose: one clear sentence each, for people."""
 
+from __future__ import annotations
+
 
 class BirdmbError(Exception):
     """Base of all deliberate errors; its text is fit to be shown to a user as it is."""
+
+
+class ArgumentError(BirdmbError, ValueError):
+    """An argument has the wrong shape or value, or two arguments contradict each other."""
 
 
 class TopologyError(BirdmbError):

@@ -1,13 +1,13 @@
 """Writing files so that each is whole or as it was before, whatever happens meanwhile.
 
 Everything that the project writes goes through `write_whole`: reports, figures, topologies,
-datasets and branches. A study's store is SQLite, which has its own transactions.
+datasets and branches; compiled kernels, whose loss costs time alone, through `replace_file`. A
+study's store is SQLite, which has its own transactions.
 """
 
 from __future__ import annotations
 
 import errno
-import io
 import os
 import re
 import stat
@@ -19,7 +19,6 @@ from birdmb.errors import OutputError
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.figure import Figure
 
 _NO_SPACE = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 _DRAFT = re.compile(r"\.(?P<name>.+)\.(?P<process>\d+)\.draft")
@@ -43,11 +42,28 @@ def write_whole(path: str | os.PathLike[str], content: bytes) -> Path:
         if target.exists() and not target.is_file():
             _write_into(target, content)
         else:
-            _remove_stale_drafts(target)
-            _replace(target, content)
+            replace_file(target, content)
     except (OSError, ValueError) as error:  # ValueError: a name with a null character
         raise OutputError(f"{path} cannot be written ({_reason(error)}).") from error
     return path
+
+
+def replace_file(target: Path, content: bytes) -> None:
+    """Put a file in its place once all of it is on the disk; raise `OSError` where that fails.
+
+    Drafts that killed processes left of it are removed.
+    """
+    _remove_stale_drafts(target)
+    draft = _draft(target)
+    try:
+        with draft.open("wb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        draft.replace(target)
+        _sync_directory(target.parent)
+    finally:
+        draft.unlink(missing_ok=True)
 
 
 def make_directory(directory: Path) -> None:
@@ -77,26 +93,6 @@ def netcdf_bytes(dataset: xr.Dataset) -> bytes:
     Not written to the disk by the HDF5 library itself, which crashes when the disk is full.
     """
     return bytes(dataset.to_netcdf(engine="h5netcdf"))
-
-
-def png_bytes(figure: Figure, dpi: float) -> bytes:
-    """A figure as the content of a PNG file."""
-    content = io.BytesIO()
-    figure.savefig(content, dpi=dpi, format="png")
-    return content.getvalue()
-
-
-def _replace(target: Path, content: bytes) -> None:
-    draft = _draft(target)
-    try:
-        with draft.open("wb") as file:
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
-        draft.replace(target)
-        _sync_directory(target.parent)
-    finally:
-        draft.unlink(missing_ok=True)
 
 
 def _write_into(target: Path, content: bytes) -> None:

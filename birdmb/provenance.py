@@ -1,5 +1,7 @@
 """The software that computed a result."""
 
+from __future__ import annotations
+
 from importlib.metadata import version
 
 # Packages whose version may change the last bits of a result.

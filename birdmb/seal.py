@@ -3,6 +3,8 @@
 Readers of HDF5 pass over what follows the end that the file itself names.
 """
 
+from __future__ import annotations
+
 import hashlib
 
 _MARK = b"\nbirdmb sha256 "

@@ -1,5 +1,7 @@
 """Texts of others, such as the name of a bird, within texts of our own."""
 
+from __future__ import annotations
+
 
 def on_one_line(text: str) -> str:
     """A text on one line, its other control characters replaced by U+FFFD.

@@ -14,9 +14,10 @@ from pathlib import Path
 import numpy as np
 
 import birdmb
+from birdmb.figures import plot_bird_branch
 from birdmb.orbits import Bifurcation, BranchPoint, Steps
 from birdmb.orbits.newton import Damping
-from birdmb.studies import bird_branch, plot_bird_branch
+from birdmb.studies import bird_branch
 
 IBIS = Path(__file__).parent.parent / "topologies" / "ibis_compliant_shoulder.toml"
 STIFFNESS = "shoulder.flap.stiffness"

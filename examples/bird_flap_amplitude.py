@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 
 import birdmb
-from birdmb.studies import parameter_study, plot_performance
+from birdmb.figures import plot_performance
+from birdmb.studies import parameter_study
 
 IBIS = Path(__file__).parent.parent / "topologies" / "ibis.toml"
 AMPLITUDE = "shoulder.flap.amplitude_deg"

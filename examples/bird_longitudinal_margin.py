@@ -11,7 +11,8 @@ from pathlib import Path
 import numpy as np
 
 import birdmb
-from birdmb.studies import parameter_study, plot_multiplier_locus
+from birdmb.figures import plot_multiplier_locus
+from birdmb.studies import parameter_study
 
 IBIS = Path(__file__).parent.parent / "topologies" / "ibis.toml"
 

@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 
 import birdmb
-from birdmb.studies import perturbed_flight, plot_perturbed_flight
+from birdmb.figures import plot_perturbed_flight
+from birdmb.studies import perturbed_flight
 
 IBIS = Path(__file__).parent.parent / "topologies" / "ibis.toml"
 

@@ -7,7 +7,8 @@ import sys
 from pathlib import Path
 
 import birdmb
-from birdmb.studies import plot_tunnel_and_free_flight, tunnel_and_free_flight
+from birdmb.figures import plot_tunnel_and_free_flight
+from birdmb.studies import tunnel_and_free_flight
 
 IBIS = Path(__file__).parent.parent / "topologies" / "ibis.toml"
 

@@ -1,5 +1,7 @@
 """The bird that a command line asks for."""
 
+from __future__ import annotations
+
 from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 

@@ -13,6 +13,7 @@ import numpy as np
 from birdmb.cli.console import messages, output
 from birdmb.cli.drawing import plain_style
 from birdmb.cli.files import prepare, write_figure
+from birdmb.cli.models import model_class
 from birdmb.cli.outcome import InputError, SearchFailed
 from birdmb.cli.progress import Progress, at_work
 from birdmb.cli.report import table_of
@@ -34,7 +35,6 @@ if TYPE_CHECKING:
 
     from birdmb.orbits import Branch
     from birdmb.orbits.search import SearchMethod
-    from birdmb.studies.branch import BirdModel
     from birdmb.topology import Bird
 
 _STYLES = {"stable": "green", "unstable": "red", "undecided": "yellow"}
@@ -90,7 +90,7 @@ def run(
     written = [] if store is None else [store]
     with at_work(progress, *directories, farewell=farewell), plain_style():
         if out is not None:
-            from birdmb.studies.branch_figure import plot_bird_branch  # noqa: PLC0415 - takes time
+            from birdmb.figures import plot_bird_branch  # noqa: PLC0415 - takes time
 
             progress.doing("drawing branch.png")
             written.append(write_figure(out / "branch.png", plot_bird_branch(branch)))
@@ -154,7 +154,7 @@ def _followed(
             bird,
             wanted.parameter,
             (wanted.start, wanted.stop),
-            _model(wanted.model),
+            model_class(wanted.model),
             method=wanted.method,
             steps_per_beat=wanted.steps_per_beat,
             segments=wanted.segments,
@@ -170,16 +170,6 @@ def _followed(
             f"No flight at {wanted.parameter} = {wanted.start:g} to start from: {error}",
             {"bird": bird.name, "model": wanted.model, "residual": finite(error.residual)},
         ) from error
-
-
-def _model(name: str) -> BirdModel:
-    if name == "rigid":
-        from birdmb.models.rigid import RigidModel  # noqa: PLC0415
-
-        return RigidModel
-    from birdmb.models.multibody import MultibodyModel  # noqa: PLC0415
-
-    return MultibodyModel
 
 
 class _Lines:

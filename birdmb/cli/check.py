@@ -8,11 +8,15 @@ from rich.table import Table
 from birdmb.aerodynamics.body_drag import body_drag, body_drag_force
 from birdmb.aerodynamics.tail import tail_surface
 from birdmb.cli.console import messages, output
-from birdmb.cli.inertia import Spring, hinge_springs, spring_of
 from birdmb.cli.progress import Progress
 from birdmb.cli.report import table_of
-from birdmb.cli.warnings import warnings_on, warnings_on_loads
 from birdmb.errors import StateError
+from birdmb.models.natural_oscillation import (
+    NaturalOscillation,
+    hinge_oscillations,
+    joint_oscillations,
+)
+from birdmb.studies.bird_warnings import bird_warnings, load_warnings
 from birdmb.studies.refinement import LoadChange, load_change
 from birdmb.topology import BONES, Bird
 from birdmb.wing.outline import span_and_area
@@ -27,15 +31,14 @@ def run(bird: Bird) -> None:
         progress.doing("measuring the wing")
         tables = [_bird(bird), _segments(bird), _joints(bird)]
         if bird.compliant_joints:
-            springs = {joint.name: spring_of(bird, joint) for joint in bird.compliant_joints}
-            tables.append(_springs("Compliant joints", "joint", springs))
+            tables.append(_oscillations("Compliant joints", "joint", joint_oscillations(bird)))
         if bird.hinged_feathers:
-            tables.append(_springs("Hinges of feathers", "hinge", hinge_springs(bird)))
-        warnings = warnings_on(bird)
+            tables.append(_oscillations("Hinges of feathers", "hinge", hinge_oscillations(bird)))
+        warnings = bird_warnings(bird)
         change = _load_change(bird, progress)
         if change is not None:
             tables.insert(1, _loads(bird, change))
-            warnings += warnings_on_loads(change)
+            warnings += load_warnings(change)
     console = output()
     for table in tables:
         console.print()
@@ -48,7 +51,7 @@ def run(bird: Bird) -> None:
 
 
 def _load_change(bird: Bird, progress: Progress) -> LoadChange | None:
-    """None where the wing has no loads, of which `warnings_on` tells."""
+    """None where the wing has no loads, of which `bird_warnings` tells."""
     progress.doing("comparing the loads on two numbers of elements")
     try:
         return load_change(bird)
@@ -131,19 +134,19 @@ def _joints(bird: Bird) -> Table:
     return table
 
 
-def _springs(title: str, kind: str, springs: dict[str, Spring]) -> Table:
+def _oscillations(title: str, kind: str, rows: dict[str, NaturalOscillation]) -> Table:
     table = table_of(
         f"{title}, by themselves without air",
         kind, "k, N m/rad", "C, N m s/rad", "I, kg m2", "swings at",
         numbers=(1, 2, 3, 4),
     )  # fmt: skip
-    for name, spring in springs.items():
-        frequency = "-" if spring.inertia == 0 else f"{spring.frequency:.3g} Hz"
+    for name, free in rows.items():
+        frequency = "-" if free.inertia == 0 else f"{free.frequency:.3g} Hz"
         table.add_row(
             name,
-            f"{spring.stiffness:.4g}",
-            f"{spring.damping:.4g}",
-            f"{spring.inertia:.3g}",
+            f"{free.stiffness:.4g}",
+            f"{free.damping:.4g}",
+            f"{free.inertia:.3g}",
             frequency,
         )
     return table

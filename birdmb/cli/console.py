@@ -1,5 +1,7 @@
 """The terminal, or the file in its place, as the commands write to it."""
 
+from __future__ import annotations
+
 from rich.console import Console
 
 _NARROWEST = 80

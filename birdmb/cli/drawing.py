@@ -1,5 +1,7 @@
 """Pictures that do not depend on what the user has set up for matplotlib."""
 
+from __future__ import annotations
+
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager

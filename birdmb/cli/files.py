@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from birdmb.cli.outcome import InputError
 from birdmb.errors import OutputError
-from birdmb.files import make_directory, netcdf_bytes, png_bytes, write_whole
+from birdmb.files import make_directory, netcdf_bytes, write_whole
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -53,7 +54,9 @@ def write_dataset(path: Path, dataset: xr.Dataset) -> Path:
 
 def write_figure(path: Path, figure: Figure) -> Path:
     """Write a figure as PNG."""
-    return write_whole(path, png_bytes(figure, _DPI))
+    content = io.BytesIO()
+    figure.savefig(content, dpi=_DPI, format="png")
+    return write_whole(path, content.getvalue())
 
 
 def write_results(cycle: FlightCycle, directory: Path, progress: Progress) -> list[Path]:
@@ -63,11 +66,11 @@ def write_results(cycle: FlightCycle, directory: Path, progress: Progress) -> li
     from birdmb import figures  # noqa: PLC0415 - takes a second
 
     drawings: dict[str, Callable[[FlightCycle], Figure]] = {
-        "states.png": figures.states,
-        "multipliers.png": figures.multipliers,
-        "loads.png": figures.loads_and_power,
-        "wing.png": figures.wing_phases,
-        "overview.png": figures.overview,
+        "states.png": figures.plot_states,
+        "multipliers.png": figures.plot_multipliers,
+        "loads.png": figures.plot_loads_and_power,
+        "wing.png": figures.plot_wing_phases,
+        "overview.png": figures.plot_overview,
     }
     for name, draw in drawings.items():
         progress.doing(f"drawing {name}")

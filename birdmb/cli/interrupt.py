@@ -8,6 +8,8 @@ the signal arrives (`signal.set_wakeup_fd`), and a thread that waits for it ends
 Imports little but the standard library, for it must be at work before all else is imported.
 """
 
+from __future__ import annotations
+
 import os
 import signal
 import socket

@@ -1,5 +1,7 @@
 """Arguments and options that several commands share."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from enum import StrEnum
 from pathlib import Path

@@ -1,5 +1,7 @@
 """How a command ends: its exit status, and errors as one sentence each."""
 
+from __future__ import annotations
+
 import json
 import sys
 import warnings

@@ -18,7 +18,7 @@ from birdmb.cli.streams import only_results_on_stdout
 from birdmb.files import remove_drafts
 
 if TYPE_CHECKING:
-    from birdmb.orbits.newton import Iteration
+    from birdmb.orbits.iteration import Iteration
 
 _HEADING = f"{'iteration':>9}  {'residual':>9}  {'step':>9}  {'damping':>9}"
 _NODES = f"  {'nodes':>5}"

@@ -97,7 +97,7 @@ def _number(value: float) -> str:
 
 def _flight(cycle: FlightCycle, validity: Validity) -> Table:
     table = table_of("Flight, mean over a beat", "quantity", "value", "unit", "", numbers=(1,))
-    model = cast("WingModel", cycle.model)
+    model = cycle.bird_model
     rows = (
         ("speed", f"{cycle.mean_speed:.3f}", "m/s", ""),
         ("climb rate", f"{cycle.mean_climb_rate:+.3f}", "m/s", ""),

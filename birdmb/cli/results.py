@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from importlib.metadata import version
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,7 +22,7 @@ def finite(value: float) -> float | None:
 
 def result_object(cycle: FlightCycle, validity: Validity, model_name: str) -> dict[str, object]:
     """What `birdmb cycle --json` prints, in SI units and rad: numbers, texts, lists and objects."""
-    model = cast("WingModel", cycle.model)
+    model = cycle.bird_model
     bird = model.bird
     return {
         "bird": bird.name,

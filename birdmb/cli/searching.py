@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from birdmb._typing import FloatArray
+from birdmb.cli.models import model_class
 from birdmb.cli.outcome import InputError, SearchFailed
 from birdmb.cli.results import finite, taken_as_prescribed
 from birdmb.errors import OrbitError, StateError
+from birdmb.models import MultibodyModel, RigidModel
 from birdmb.orbits import (
     ArgumentError,
     Attempt,
@@ -29,8 +31,6 @@ if TYPE_CHECKING:
     from birdmb.cli.saved_guess import SavedGuess
     from birdmb.models import FlightCycle
     from birdmb.models.motion import MotionName
-    from birdmb.models.multibody import MultibodyModel
-    from birdmb.models.rigid import RigidModel
     from birdmb.orbits.newton import Damping
     from birdmb.orbits.search import SearchMethod
     from birdmb.topology import Bird
@@ -81,18 +81,15 @@ def model_of(
         InputError: the model has no such motion.
         TopologyError: the bird lacks what the motion needs.
     """
-    if name == "rigid":
-        from birdmb.models.rigid import RigidModel  # noqa: PLC0415
-
-        return RigidModel(bird, motion=motion, steps_per_beat=steps_per_beat)
+    kind = model_class(name)
+    if issubclass(kind, RigidModel):
+        return kind(bird, motion=motion, steps_per_beat=steps_per_beat)
     if motion != "planar":
         raise InputError(
             f"--motion {motion} is of the rigid model: the multibody one flies in its plane of "
             "symmetry alone. Add --model rigid."
         )
-    from birdmb.models.multibody import MultibodyModel  # noqa: PLC0415
-
-    return MultibodyModel(bird, steps_per_beat=steps_per_beat)
+    return kind(bird, steps_per_beat=steps_per_beat)
 
 
 def announce(model: RigidModel | MultibodyModel, name: str, progress: Progress) -> None:
@@ -276,8 +273,6 @@ def _starts_of_others(model: RigidModel | MultibodyModel) -> list[FloatArray] | 
 
     Of the multibody bird those along forward flights, without the guess, which has been tried.
     """
-    from birdmb.models.rigid import RigidModel  # noqa: PLC0415 - not before the bird is sound
-
     if isinstance(model, RigidModel):
         return None
     times = model.bird.period * np.arange(COARSE_NODES) / COARSE_NODES

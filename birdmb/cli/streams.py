@@ -1,5 +1,7 @@
 """Standard output and error as they may be: not in UTF-8, closed, full, or read by nobody."""
 
+from __future__ import annotations
+
 import codecs
 import os
 import sys

@@ -1,5 +1,7 @@
 """The commands `birdmb sweep` and `birdmb plot` and their options."""
 
+from __future__ import annotations
+
 from pathlib import Path
 from typing import Annotated
 

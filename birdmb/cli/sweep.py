@@ -14,7 +14,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, SpinnerColumn, TextColumn
 
 from birdmb.cli.console import messages
-from birdmb.models import MultibodyModel, RigidModel
+from birdmb.cli.models import model_class
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.relevance import ignored_values
 from birdmb.studies.sweeps import Finished, Study, Trimming, sweep
@@ -36,7 +36,7 @@ def run(
     search: Mapping[str, Any],
 ) -> None:
     """Fill the store, with progress on standard error, and say what it holds."""
-    kind = RigidModel if model == "rigid" else MultibodyModel
+    kind = model_class(model)
     bound = kind if steps_per_beat is None else partial(kind, steps_per_beat=steps_per_beat)
     with SweepProgress(messages(), ignored_springs(bird, bound)) as progress:
         study = sweep(

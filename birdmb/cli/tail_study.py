@@ -14,6 +14,12 @@ from birdmb.cli.drawing import plain_style
 from birdmb.cli.files import prepare, reject_overwriting, write_dataset, write_figure
 from birdmb.cli.progress import Progress
 from birdmb.cli.sweep import SweepProgress, ignored_springs
+from birdmb.figures.tail_study import (
+    plot_envelope,
+    plot_manifold,
+    plot_pareto,
+    plot_stability_openings,
+)
 from birdmb.models import RigidModel
 from birdmb.studies.sweeps.verdicts import jump_lines, verdict_lines
 from birdmb.studies.tail import (
@@ -23,12 +29,6 @@ from birdmb.studies.tail import (
     stability_openings,
     tail_study,
     within_rules,
-)
-from birdmb.studies.tail_figures import (
-    plot_envelope,
-    plot_manifold,
-    plot_pareto,
-    plot_stability_openings,
 )
 from birdmb.studies.validity import LARGEST_TAIL_ANGLE
 from birdmb.topology import Bird

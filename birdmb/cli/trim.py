@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import cast
 
 import typer
 
 from birdmb.cli.console import messages
+from birdmb.cli.models import model_class
 from birdmb.cli.progress import Progress
 from birdmb.cli.results import taken_as_prescribed, verdict_sentence
-from birdmb.models import MultibodyModel, RigidModel, WingModel
 from birdmb.studies.trim import trim_flight
 from birdmb.studies.validity import assess_validity
 from birdmb.topology import Bird
@@ -36,11 +35,11 @@ def run(
             parameters,
             climb_rate=climb_rate,
             speed=speed,
-            model=RigidModel if model == "rigid" else MultibodyModel,
+            model=model_class(model),
         )
         cycle = found.cycle
         warnings = assess_validity(cycle).warnings
-        held = taken_as_prescribed(cast("WingModel", cycle.model))
+        held = taken_as_prescribed(cycle.bird_model)
     if held:
         progress.line(
             f"The {model} model takes {', '.join(held)} as prescribed: springs and dampers are not "

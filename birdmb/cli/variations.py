@@ -1,5 +1,7 @@
 """What `--vary` and `--trim` ask for."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 from typing import Any

@@ -1,13 +1,13 @@
-"""Figures of a bird's limit cycle, for papers and talks.
+"""All that draws.
 
-Each function takes a `FlightCycle` and returns a `matplotlib.figure.Figure`, which `savefig` writes
-to a file and a notebook shows as it is; no window and no pyplot is involved.
+Nothing that computes imports it: results draw themselves by a call that their `plot` imports when
+it is called. A function `plot_...` returns a `matplotlib.figure.Figure`, which `savefig` writes to
+a file and a notebook shows as it is; no window and no pyplot is involved. A function `draw_...`
+draws into axes that it is given.
 """
 
-from birdmb.figures.loads import loads_and_power
-from birdmb.figures.multipliers import multipliers
-from birdmb.figures.overview import overview
-from birdmb.figures.states import states
-from birdmb.figures.wing import wing_phases
+import lazy_loader
 
-__all__ = ["loads_and_power", "multipliers", "overview", "states", "wing_phases"]
+# The names are listed in __init__.pyi and imported at their first use: the picture of an orbit
+# must not wait for all that draws birds.
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -11,14 +11,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
-from birdmb.figures.style import LINE, MEAN, beat_axis, label_beat, model_of, title_of
+from birdmb.figures.style import LINE, MEAN, beat_axis, label_beat, title_of
 from birdmb.text import in_figure
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
 
 
-def loads_and_power(cycle: FlightCycle) -> Figure:
+def plot_loads_and_power(cycle: FlightCycle) -> Figure:
     """Draw thrust, lift and pitching moment, and the power of the wings and of the joints."""
     figure = Figure(figsize=(10, 6.2), layout="constrained")
     left, right = figure.subfigures(1, 2, squeeze=False, width_ratios=(1, 1.15))[0]
@@ -41,7 +41,7 @@ def draw_loads(rows: Sequence[Axes], cycle: FlightCycle) -> None:
         "lift $-F_z$ (N)": -beat.force[:, 2],
         "$M_y$ (N m)": beat.moment[:, 1],
     }
-    model = model_of(cycle)
+    model = cycle.bird_model
     weight = model.mass * model.bird.gravity
     rows[1].axhline(weight, color="0.35", ls=":", lw=1.2, label=f"weight {weight:.3g} N")
     for axes, (name, values) in zip(rows, curves.items(), strict=True):

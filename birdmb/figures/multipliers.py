@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Circle
 
-from birdmb.figures.style import title_of
-from birdmb.orbits.plots import STABLE_COLOUR, UNSTABLE_COLOUR, draw_multipliers
+from birdmb._typing import ComplexArray, FloatArray
+from birdmb.figures.style import STABLE_COLOUR, UNSTABLE_COLOUR, title_of
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
@@ -18,12 +19,26 @@ if TYPE_CHECKING:
 _CROWDED = 0.06
 
 
-def multipliers(cycle: FlightCycle) -> Figure:
+def plot_multipliers(cycle: FlightCycle) -> Figure:
     """Draw the multipliers in the unit circle, with error discs, moduli and doubling times."""
     figure = Figure(figsize=(6.4, 5.6), layout="constrained")
     draw_labelled_multipliers(figure.subplots(), cycle)
     figure.suptitle(f"{title_of(cycle)}: Floquet multipliers", fontsize="medium")
     return figure
+
+
+def draw_multipliers(axes: Axes, multipliers: ComplexArray, errors: FloatArray) -> None:
+    """Draw multipliers (n,) in the complex plane, with their error bounds as discs."""
+    axes.add_patch(Circle((0, 0), 1, fill=False, color="0.6"))
+    inside = np.abs(multipliers) <= 1
+    for keep, colour in ((inside, STABLE_COLOUR), (~inside, UNSTABLE_COLOUR)):
+        axes.plot(multipliers[keep].real, multipliers[keep].imag, "o", color=colour)
+    for value, error in zip(multipliers, errors, strict=True):
+        if np.isfinite(error):
+            axes.add_patch(Circle((value.real, value.imag), error, color="0.5", alpha=0.3))
+    reach = 1.1 * max(1.0, float(np.abs(multipliers).max()))
+    axes.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal")
+    axes.set(xlabel="Re Λ", ylabel="Im Λ", title="Floquet multipliers")
 
 
 def draw_labelled_multipliers(axes: Axes, cycle: FlightCycle) -> None:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from birdmb.models import FlightCycle
 
 
-def overview(cycle: FlightCycle) -> Figure:
+def plot_overview(cycle: FlightCycle) -> Figure:
     """Draw the wings at four phases, states, loads, power and multipliers on one page (16:9)."""
     layout = ConstrainedLayoutEngine(w_pad=0.1, h_pad=0.06)
     figure = Figure(figsize=(16, 9), layout=layout)

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
 from birdmb._typing import FloatArray
-from birdmb.figures.style import DRIVER, LINE, beat_axis, label_beat, model_of, symbol, title_of
+from birdmb.figures.style import DRIVER, LINE, beat_axis, label_beat, symbol, title_of
 from birdmb.text import in_figure
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ _IN_DEGREES = {"rad": "°", "rad/s": "°/s"}
 _ORDER_OF_BODY = ("u", "w", "theta", "q")
 
 
-def states(cycle: FlightCycle) -> Figure:
+def plot_states(cycle: FlightCycle) -> Figure:
     """Draw the states over a beat, angles in degrees; compliant joints with their drivers."""
     rows = len(cycle.state_names) // 2
     figure = Figure(figsize=(8.5, 0.7 + 1.75 * rows), layout="constrained")
@@ -62,7 +62,7 @@ def _label(name: str) -> str:
 
 def _driver(cycle: FlightCycle, state: str) -> FloatArray | None:
     """Angle or rate (K,) that a compliant joint's driver has, `None` for states without one."""
-    bird = model_of(cycle).bird
+    bird = cycle.bird_model.bird
     joint_name = state.removesuffix(_RATE)
     if joint_name not in bird.joint_names:
         return None

@@ -1,8 +1,8 @@
-"""What all figures share: colours, the axis of the beat, and which part of it is the downstroke."""
+"""What figures share: colours and markers, the axis of the beat, and which part is downstroke."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,25 +12,28 @@ from birdmb.text import in_figure
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
-    from birdmb.models.wing_model import WingModel
 
 LINE = "tab:blue"
 DRIVER = "0.35"
 MEAN = "tab:orange"
+STABLE_COLOUR, UNSTABLE_COLOUR = "tab:blue", "tab:red"
+VERDICT_COLOURS = {"stable": STABLE_COLOUR, "unstable": UNSTABLE_COLOUR, "undecided": "0.5"}
+BIFURCATION_MARKERS = {
+    "fold": "o",
+    "period doubling": "s",
+    "Neimark-Sacker": "D",
+    "branch point": "x",
+    "multiple": "*",
+}
 _SHADE = "0.92"
 
 # In place of "theta", say, as the text in a picture.
 _SYMBOLS = {"theta": "θ"}
 
 
-def model_of(cycle: FlightCycle) -> WingModel:
-    """The bird's model, which `FlightCycle.model` is in general terms."""
-    return cast("WingModel", cycle.model)
-
-
 def title_of(cycle: FlightCycle) -> str:
     """Name of the bird as it is written in a figure."""
-    return in_figure(model_of(cycle).bird.name)
+    return in_figure(cycle.bird_model.bird.name)
 
 
 def symbol(name: str) -> str:

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure, SubFigure
 from matplotlib.lines import Line2D
 
 from birdmb._typing import FloatArray
-from birdmb.figures.style import model_of, stroke_speed, title_of
+from birdmb.figures.style import stroke_speed, title_of
 from birdmb.wing.outline import WingOutline, wing_outline
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ class Pose:
     motion: str
 
 
-def wing_phases(cycle: FlightCycle) -> Figure:
+def plot_wing_phases(cycle: FlightCycle) -> Figure:
     """Draw both wings at t = 0, T/4, T/2 and 3T/4 in three views of equal scale."""
     figure = Figure(figsize=(13, 6.2), layout="constrained")
     draw_wing_phases(figure, cycle, (OBLIQUE, BEHIND, TOP))
@@ -120,7 +120,7 @@ def draw_wing_phases(figure: Figure | SubFigure, cycle: FlightCycle, views: Sequ
 
 
 def _poses(cycle: FlightCycle) -> list[Pose]:
-    model = model_of(cycle)
+    model = cycle.bird_model
     discretisation = model.bird.wing.resolved_discretisation
     times = cycle.start_time + np.array(_PHASES) * cycle.period
     poses = []

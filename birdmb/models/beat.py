@@ -1,5 +1,7 @@
 """One wingbeat of a limit cycle: its motion, loads and powers at equidistant times."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -10,6 +10,8 @@ One such call is made at a time in a process, for a system of Exudyn's is integr
 Nothing is lost by this: the code holds Python's global lock.
 """
 
+from __future__ import annotations
+
 import functools
 import signal
 import threading

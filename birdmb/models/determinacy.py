@@ -1,5 +1,7 @@
 """Whether the accelerations of the free coordinates are determined: their mass matrix regular."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 import numpy as np

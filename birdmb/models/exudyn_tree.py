@@ -7,6 +7,8 @@ force of B times the driver's acceleration. No constraint is left, so Exudyn's e
 apply, and a prescribed joint strays from its driver by no more than its loads over B.
 """
 
+from __future__ import annotations
+
 import inspect
 import weakref
 from collections.abc import Callable, Sequence

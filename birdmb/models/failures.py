@@ -1,5 +1,7 @@
 """How a model says that it has lost its meaning, as `StateError`."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 

@@ -1,5 +1,7 @@
 """Hinged feathers as rods: where their mass is, seen from the bones that carry them."""
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

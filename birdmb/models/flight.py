@@ -1,5 +1,7 @@
 """A computed flight: states at the integrator's steps and, between them, at any time."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -30,7 +32,7 @@ class Flight:
         """States (..., n) at any times (...) s within the solution (cubic Hermite, 4th order)."""
         return np.asarray(self._spline(np.asarray(times, dtype=float)))
 
-    def at(self, times: npt.ArrayLike) -> "Flight":
+    def at(self, times: npt.ArrayLike) -> Flight:
         """The same solution, tabulated at other times (K,) s."""
         when = np.atleast_1d(np.asarray(times, dtype=float))
         rates = np.asarray(self._spline.derivative()(when))

@@ -1,16 +1,18 @@
 """What a limit cycle says about the flight of a bird: speed, climb, loads, power."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
-from matplotlib.figure import Figure
 
-from birdmb import figures
 from birdmb._typing import FloatArray
 from birdmb.aerodynamics.prescribed import driven_at
+from birdmb.errors import ArgumentError
 from birdmb.models.beat import Beat
 from birdmb.models.energy import Work, work_by_sign
 from birdmb.models.flight_modes import FlightMode, flight_modes
@@ -18,6 +20,9 @@ from birdmb.models.loads import DISSIPATORS
 from birdmb.models.motion import SPACE_STATES, heading_rate, heading_velocity
 from birdmb.models.stepped_cycle import SteppedCycle
 from birdmb.models.wing_model import STEPS_PER_BEAT
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 # Of flights that are well resolved both are below 1e-4.
 _LARGEST_IMBALANCE = 0.01
@@ -49,7 +54,7 @@ class FlightCycle(SteppedCycle):
     @cached_property
     def beat(self) -> Beat:
         """The beat, at the steps of the model's integration or finer than a collocated one."""
-        model = self._bird_model
+        model = self.bird_model
         times, states = self._states_of_beat
         loads = model.loads_along(times[:-1], states[:-1])
         torques = model.actuator_torques_along(times[:-1], states[:-1], loads)
@@ -69,7 +74,7 @@ class FlightCycle(SteppedCycle):
     def _states_of_beat(self) -> tuple[FloatArray, FloatArray]:
         """Times (K,) and states (K, n) of the beat."""
         if self.nodes is None:
-            steps = self._bird_model.steps_per_beat
+            steps = self.bird_model.steps_per_beat
         else:
             steps = max(STEPS_PER_BEAT, _INSTANTS_PER_NODE * self.nodes)
         times = self.start_time + self.period * np.arange(steps + 1) / steps
@@ -78,12 +83,12 @@ class FlightCycle(SteppedCycle):
     @cached_property
     def _mean_in_space(self) -> FloatArray:
         """Mean states in space (8,)."""
-        return _mean(self._bird_model.body_in_space(self._states_of_beat[1]))
+        return _mean(self.bird_model.body_in_space(self._states_of_beat[1]))
 
     @cached_property
     def _mean_along_heading(self) -> FloatArray:
         """Mean velocity (3,) m/s forward, to the right and upwards, seen along the heading."""
-        return _mean(heading_velocity(self._bird_model.body_in_space(self._states_of_beat[1])))
+        return _mean(heading_velocity(self.bird_model.body_in_space(self._states_of_beat[1])))
 
     @property
     def mean_velocity(self) -> FloatArray:
@@ -131,7 +136,7 @@ class FlightCycle(SteppedCycle):
     @property
     def potential_power(self) -> float:
         """Power drawn from sinking: minus weight times climb rate (thesis, chapter 8: P_g)."""
-        model = self._bird_model
+        model = self.bird_model
         return -model.mass * model.bird.gravity * self.mean_climb_rate
 
     @property
@@ -146,14 +151,14 @@ class FlightCycle(SteppedCycle):
 
     def transport_cost(self, power: float) -> float:
         """Any power (W) per weight and speed, dimensionless; NaN without weight."""
-        model = self._bird_model
+        model = self.bird_model
         way = model.mass * model.bird.gravity * self.mean_speed
         return power / way if way else math.nan
 
     @cached_property
     def driver_work(self) -> dict[str, Work]:
         """Positive and negative mean power of the drivers, W, by joint, both wings together."""
-        powers = zip(self._bird_model.bird.angle_names, self.beat.driver_power.T, strict=True)
+        powers = zip(self.bird_model.bird.angle_names, self.beat.driver_power.T, strict=True)
         return {name: work_by_sign(self.beat.times, power) for name, power in powers}
 
     def muscle_power(self, recovery: float = 1.0) -> float:
@@ -163,10 +168,10 @@ class FlightCycle(SteppedCycle):
         muscles take out of the metabolism is left to whoever knows their efficiency.
 
         Raises:
-            ValueError: the part is not between 0 and 1.
+            ArgumentError: the part is not between 0 and 1.
         """
         if not 0.0 <= recovery <= 1.0:
-            raise ValueError(f"recovery is the part of negative work won back, not {recovery}.")
+            raise ArgumentError(f"recovery is the part of negative work won back, not {recovery}.")
         return sum(work.net(recovery) for work in self.driver_work.values())
 
     @property
@@ -213,7 +218,7 @@ class FlightCycle(SteppedCycle):
 
         Joints, hinges, air and gravity together must leave the kinetic energy as it was.
         """
-        model = self._bird_model
+        model = self.bird_model
         joints = self.beat.joint_power.sum(axis=1)
         climb = heading_velocity(model.body_in_space(self.beat.states))[:, 2]
         gravity = -model.mass * model.bird.gravity * climb
@@ -251,7 +256,7 @@ class FlightCycle(SteppedCycle):
     @cached_property
     def flight_modes(self) -> tuple[FlightMode, ...]:
         """The modes, by plane and name, in the order of the multipliers."""
-        return flight_modes(self, self._bird_model.motion)
+        return flight_modes(self, self.bird_model.motion)
 
     @property
     def sort_key(self) -> tuple[float, ...]:
@@ -268,13 +273,13 @@ class FlightCycle(SteppedCycle):
         return np.full(errors.shape, np.inf) if self.failed_checks else errors
 
     def _by_joint(self, values: FloatArray) -> dict[str, float]:
-        names = self._bird_model.bird.angle_names
+        names = self.bird_model.bird.angle_names
         return {n: float(v) for n, v in zip(names, _mean(values), strict=True)}
 
     def to_xarray(self) -> xr.Dataset:
         """The orbit as `LimitCycle.to_xarray` gives it, with loads and power over the beat."""
         beat = self.beat
-        axes, joints = ["x", "y", "z"], list(self._bird_model.bird.angle_names)
+        axes, joints = ["x", "y", "z"], list(self.bird_model.bird.angle_names)
         vectors = {
             "position": ("m", "control points of the right wing from G"),
             "element_force": ("N", "force on each element of the right wing"),
@@ -319,8 +324,8 @@ class FlightCycle(SteppedCycle):
             coords={"beat_time": ("beat_time", beat.times, {"units": "s"}), "axis": axes}
             | {"joint": joints, "load": list(DISSIPATORS)},
             attrs={
-                "bird": self._bird_model.bird.name,
-                "fingerprint": self._bird_model.bird.fingerprint(),
+                "bird": self.bird_model.bird.name,
+                "fingerprint": self.bird_model.bird.fingerprint(),
                 "frame": "body axes: x forward, y right, z down, from the body's centre of mass",
                 "mean_speed": self.mean_speed,
                 "mean_climb_rate": self.mean_climb_rate,
@@ -338,7 +343,9 @@ class FlightCycle(SteppedCycle):
 
     def plot(self) -> Figure:
         """Draw states, loads and power over a beat, the multipliers and the wing at four phases."""
-        return figures.overview(self)
+        from birdmb.figures import plot_overview  # noqa: PLC0415 - it draws
+
+        return plot_overview(self)
 
 
 def _attrs(units: str, about: str) -> dict[str, str]:

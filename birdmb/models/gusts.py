@@ -1,5 +1,7 @@
 """Gusts: the velocity of the air in the world as a function of time, uniform in space."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeAlias

@@ -6,6 +6,8 @@ smooth in its start, which differences of it need; libraries offer this method w
 only.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 
 import numpy as np

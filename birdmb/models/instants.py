@@ -1,5 +1,7 @@
 """What time alone determines of a bird's wing, kept for all who ask for the same instants."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from functools import lru_cache
 from typing import NamedTuple

@@ -1,5 +1,7 @@
 """Which integration the stiffest motion of a multibody bird needs."""
 
+from __future__ import annotations
+
 from typing import Literal, NamedTuple, Protocol
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Aerodynamic loads as users see them."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -43,7 +45,7 @@ class Loads:
     """(3,) N, resultant of wings, tail and body."""
     moment: FloatArray
     """(3,) N m, of all of them about the body's centre of mass G."""
-    tail: "TailLoads | None"
+    tail: TailLoads | None
     """Of the tail; `None` where there is none, or where it is furled."""
     body_force: FloatArray
     """(3,) N, of the body, at G: its drag and side force."""
@@ -86,7 +88,7 @@ class LoadsAlong:
     def __init__(self, stack: StackedLoads, frame: Airframe) -> None:
         self.stack, self._frame = stack, frame
 
-    def taken(self, instants: IntArray) -> "LoadsAlong":
+    def taken(self, instants: IntArray) -> LoadsAlong:
         """Those at some of the instants (P,)."""
         return LoadsAlong(StackedLoads(*(each[instants] for each in self.stack)), self._frame)
 

@@ -1,5 +1,7 @@
 """Compiled loads of the air on a bird at many instants, element by element."""
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

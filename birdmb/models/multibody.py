@@ -1,5 +1,7 @@
 """The multibody bird in flight, its joints prescribed or compliant (docs/model.md, section 7)."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 
 import numpy as np
@@ -7,11 +9,11 @@ import numpy as np
 from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError, StateError
 from birdmb.models.flight_cycle import FlightCycle
+from birdmb.models.rigid_flights import rigid_flights
 from birdmb.models.starts import (
     FEW_INCIDENCES,
     FEW_PATH_ANGLES,
     FEW_SPEEDS,
-    rigid_flights,
     steady_states,
 )
 from birdmb.models.tethered import TetheredModel

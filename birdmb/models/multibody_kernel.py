@@ -1,5 +1,7 @@
 """Compiled generalised forces of the air on the multibody bird."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from birdmb._kernels import kernel

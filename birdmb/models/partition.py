@@ -1,5 +1,7 @@
 """Equations of motion of which some coordinates follow a given motion, at many instants."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from birdmb._typing import BoolArray, FloatArray

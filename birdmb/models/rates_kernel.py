@@ -4,6 +4,8 @@ Most of the work depends on the joints' angles alone, and differences of the rat
 leave these as they are more often than not: states of a time with the same angles share it.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Rows of a table that are alike, so that work for one of them serves all."""
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Springs and dampers: of compliant joints to their drivers, of hinges to their rest."""
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

@@ -7,12 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.errors import StateError
-from birdmb.orbits import find_limit_cycles
 
 if TYPE_CHECKING:
     from birdmb.models.wing_model import WingModel
-    from birdmb.topology import Bird
 
 # Parts of the speed at which the wings carry the weight with this lift coefficient; degrees. What
 # is most likely first.
@@ -51,18 +48,3 @@ def steady_states(
         )
     )
     return np.column_stack([v * np.cos(alpha), v * np.sin(alpha), np.zeros(v.size), alpha + gamma])
-
-
-def rigid_flights(bird: Bird, times: FloatArray) -> FloatArray:
-    """States (S, K, 4) of the body at `times` (K,) s in the flights of the rigid bird.
-
-    None where it has no flight, or where the model of the rigid bird does not apply.
-    """
-    from birdmb.models.rigid import RigidModel  # noqa: PLC0415 - it takes its starts from here
-
-    try:
-        flights = find_limit_cycles(RigidModel(bird), accuracy=1e-3, deflations=4)
-    except StateError:
-        flights = []
-    states = [flight.trajectory(times).states for flight in flights]
-    return np.array(states).reshape(len(states), times.size, 4)

@@ -1,5 +1,7 @@
 """A limit cycle of a model that is flown with fixed steps, and what these make of it."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from functools import cached_property
@@ -37,13 +39,14 @@ class SteppedCycle(LimitCycle):
     """
 
     @property
-    def _bird_model(self) -> WingModel:
+    def bird_model(self) -> WingModel:
+        """`model`, known to be a bird's."""
         return cast(WingModel, self.model)
 
     @cached_property
     def _finer_model(self) -> WingModel:
         """The same method with twice the steps: explicit against explicit."""
-        return self._bird_model.with_steps(2 * self._bird_model.steps_per_beat)
+        return self.bird_model.with_steps(2 * self.bird_model.steps_per_beat)
 
     @cached_property
     def integration_error(self) -> float:
@@ -56,7 +59,7 @@ class SteppedCycle(LimitCycle):
         end = self.start_time + self.period
         coarse, fine = (
             model.flow(self.x0, self.start_time, end)
-            for model in (self._bird_model, self._finer_model)
+            for model in (self.bird_model, self._finer_model)
         )
         return float(np.abs((coarse - fine) / self.state_scale).max())
 
@@ -74,7 +77,7 @@ class SteppedCycle(LimitCycle):
         states = self.trajectory(times).states
         try:
             ends = [
-                self._bird_model.flow(*each)
+                self.bird_model.flow(*each)
                 for each in zip(states[:-1], times[:-1], times[1:], strict=True)
             ]
         except StateError:
@@ -92,7 +95,7 @@ class SteppedCycle(LimitCycle):
         """
         if self.method == "collocation":
             return np.zeros(len(self.multipliers))
-        model, steps = self._bird_model, self._bird_model.steps_per_beat
+        model, steps = self.bird_model, self.bird_model.steps_per_beat
         others, factor = [self._finer_model], _ERROR_PER_DIFFERENCE
         if model.has_kinks:
             others += [model.with_steps(n) for n in (steps + 1, steps + steps // 6 + 2)]

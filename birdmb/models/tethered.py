@@ -1,5 +1,7 @@
 """The bird in a wind tunnel: its body held in steady motion, its joints free."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from typing import Any
 
@@ -7,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from birdmb._typing import FloatArray
+from birdmb.errors import ArgumentError
 from birdmb.models.gusts import Gust
 from birdmb.models.integration import Integrator
 from birdmb.models.stepped_cycle import SteppedCycle
@@ -29,7 +32,7 @@ class TetheredModel(TreeModel):
         gust: velocity of the air, as for `WingModel`.
 
     Raises:
-        ValueError: the body turns.
+        ArgumentError: the body turns.
     """
 
     limit_cycle_type = SteppedCycle
@@ -48,7 +51,7 @@ class TetheredModel(TreeModel):
         self._held = np.array(body_state, dtype=float)
         self._held.flags.writeable = False
         if self._held.shape != (4,) or self._held[2] != 0.0:
-            raise ValueError(
+            raise ArgumentError(
                 "body_state must be u, w, q, theta with q = 0: a held body cannot turn."
             )
 

@@ -5,6 +5,8 @@ is in body axes, the body's acceleration too: mass matrices depend on the joints
 Coordinates are x, z and pitch of the body, then the joints and hinges of the right wing.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

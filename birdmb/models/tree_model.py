@@ -1,5 +1,7 @@
 """The tree of body and wings in Exudyn, its joints prescribed or compliant."""
 
+from __future__ import annotations
+
 from functools import cached_property
 from typing import Any, Literal, Self
 

@@ -1,5 +1,7 @@
 """Accelerations of the multibody bird at many instants at once, in one or two compiled calls."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from birdmb._typing import BoolArray, FloatArray

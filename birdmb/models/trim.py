@@ -1,5 +1,7 @@
 """A first guess of the state in which a bird flies: the loads balanced on average over a beat."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 
 import numpy as np

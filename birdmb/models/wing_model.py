@@ -1,5 +1,7 @@
 """What both models of a bird have in common: the bird, its wing as arrays, its states' names."""
 
+from __future__ import annotations
+
 from abc import ABC, abstractmethod
 from functools import cached_property, partial
 from typing import Any, Literal, Self

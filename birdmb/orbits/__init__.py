@@ -17,9 +17,9 @@ from birdmb.orbits.errors import (
     SingularJacobianError,
 )
 from birdmb.orbits.floquet import floquet
+from birdmb.orbits.iteration import Iteration
 from birdmb.orbits.lyapunov import LyapunovEstimate, largest_lyapunov_exponent
 from birdmb.orbits.multipliers import MultiplierSolver, Stability, product_multipliers
-from birdmb.orbits.newton import Iteration
 from birdmb.orbits.ode import OdeModel, Trajectory
 from birdmb.orbits.periodic import periodic_multipliers
 from birdmb.orbits.problem import Model, VariationalModel

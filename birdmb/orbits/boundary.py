@@ -5,21 +5,22 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 import xarray as xr
-from matplotlib.figure import Figure
 
-from birdmb.errors import BirdmbError
-from birdmb.orbits import plots
+from birdmb.errors import ArgumentError, BirdmbError
 from birdmb.orbits.branch import Branch
 from birdmb.orbits.branch_points import Bifurcation
 from birdmb.orbits.continuation import continue_branch
-from birdmb.orbits.errors import BIFURCATIONS_FOUND, ArgumentError
+from birdmb.orbits.errors import BIFURCATIONS_FOUND
 from birdmb.orbits.extended import Family
 from birdmb.orbits.problem import Model
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True)
@@ -66,7 +67,9 @@ class StabilityBoundary:
 
     def plot(self) -> Figure:
         """Draw the boundary in the plane of the two parameters, by kind of bifurcation."""
-        return plots.plot_boundary(self)
+        from birdmb.figures import plot_stability_boundary  # noqa: PLC0415 - it draws
+
+        return plot_stability_boundary(self)
 
 
 def stability_boundary(

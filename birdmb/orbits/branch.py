@@ -8,20 +8,22 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
-from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
 from birdmb.files import netcdf_bytes, write_whole
-from birdmb.orbits import plots
 from birdmb.orbits.branch_dataset import arrays_of, bifurcations_of, points_of
 from birdmb.orbits.branch_points import Bifurcation, BranchPoint
 from birdmb.orbits.errors import BranchFileError, BranchStopped
 from birdmb.provenance import software
 from birdmb.seal import sealed, unsealed
 from birdmb.text import on_one_line
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _FORMAT = 3
 _SETTING = "setting_"
@@ -100,8 +102,9 @@ class Branch:
         By default the first state at the start of the orbits. Stable parts are drawn in one colour,
         unstable ones in another, undecided ones in grey; bifurcations are marked.
         """
-        name = quantity or self.state_names[0]
-        return plots.plot_branch(self, name)
+        from birdmb.figures import plot_branch  # noqa: PLC0415 - it draws
+
+        return plot_branch(self, quantity or self.state_names[0])
 
     def values(self, quantity: str) -> FloatArray:
         """Values (k,) of a state at the start of the orbits, of "period" or of an observable."""

@@ -14,7 +14,8 @@ from birdmb.orbits.collocation_search import guessed_path
 from birdmb.orbits.cycle import LimitCycle
 from birdmb.orbits.deflation import Deflated, Known, apart
 from birdmb.orbits.errors import ArgumentError
-from birdmb.orbits.newton import Equations, Iteration, solve
+from birdmb.orbits.iteration import Iteration
+from birdmb.orbits.newton import Equations, solve
 from birdmb.orbits.periodicity import require_period, turns
 from birdmb.orbits.problem import Model
 from birdmb.orbits.right_hand_side import RightHandSide

@@ -13,7 +13,8 @@ from scipy.linalg import lapack
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
 from birdmb.orbits.errors import NotSmoothError
-from birdmb.orbits.newton import Damping, Equations, Iteration, solve
+from birdmb.orbits.iteration import Iteration
+from birdmb.orbits.newton import Damping, Equations, solve
 from birdmb.orbits.right_hand_side import RightHandSide
 from birdmb.orbits.trigonometric import differentiation_matrix, resampled
 

@@ -22,7 +22,8 @@ from birdmb.orbits.collocation import (
 )
 from birdmb.orbits.cycle import LimitCycle
 from birdmb.orbits.errors import ArgumentError, ConvergenceError, NotSmoothError
-from birdmb.orbits.newton import Damping, Iteration
+from birdmb.orbits.iteration import Iteration
+from birdmb.orbits.newton import Damping
 from birdmb.orbits.periodicity import require_period
 from birdmb.orbits.problem import HasGuessedPath, HasLimitCycleType, Model
 from birdmb.orbits.result import FloquetResult

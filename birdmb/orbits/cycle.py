@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 import xarray as xr
 
-from birdmb.orbits.newton import Iteration
+from birdmb.orbits.iteration import Iteration
 from birdmb.orbits.ode import Trajectory
 from birdmb.orbits.result import FloquetResult
 from birdmb.orbits.trigonometric import interpolated

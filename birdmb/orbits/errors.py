@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Final, Literal
+from typing import Final, Literal
 
+from birdmb import errors
 from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError
-
-if TYPE_CHECKING:
-    from birdmb.orbits.newton import Iteration
+from birdmb.orbits.iteration import Iteration
 
 
-class ArgumentError(OrbitError, ValueError):
-    """An argument has the wrong shape or value, or two arguments contradict each other."""
+class ArgumentError(errors.ArgumentError, OrbitError):
+    """As `birdmb.errors.ArgumentError`, of a computation on an orbit."""
 
 
 _LARGEST_TOLERANCE = 1e-2

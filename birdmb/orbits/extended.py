@@ -14,7 +14,8 @@ from birdmb._typing import FloatArray
 from birdmb.errors import BirdmbError, StateError
 from birdmb.orbits.branch_points import BranchPoint
 from birdmb.orbits.cycle import LimitCycle, OrbitMethod
-from birdmb.orbits.newton import Equations, Iteration, Matrix, factorise
+from birdmb.orbits.iteration import Iteration
+from birdmb.orbits.newton import Equations, Matrix, factorise
 from birdmb.orbits.problem import HasLimitCycleType, Model
 
 Family = Callable[[float], Model]

@@ -19,7 +19,8 @@ from birdmb.orbits.collocation import (
     fewer_nodes,
 )
 from birdmb.orbits.extended import ExtendedEquations, Solution
-from birdmb.orbits.newton import Iteration, Matrix
+from birdmb.orbits.iteration import Iteration
+from birdmb.orbits.newton import Matrix
 from birdmb.orbits.right_hand_side import RightHandSide
 from birdmb.orbits.trigonometric import resampled
 

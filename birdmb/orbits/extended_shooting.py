@@ -11,8 +11,9 @@ import numpy as np
 from birdmb._typing import FloatArray
 from birdmb.orbits.branch_points import BranchPoint
 from birdmb.orbits.extended import ExtendedEquations, Solution
+from birdmb.orbits.iteration import Iteration
 from birdmb.orbits.linearisation import linearise
-from birdmb.orbits.newton import Iteration, Matrix, solve
+from birdmb.orbits.newton import Matrix, solve
 from birdmb.orbits.periodic import periodic_multipliers
 from birdmb.orbits.segments import JacobianMethod, Segments
 from birdmb.orbits.shooting import ShootingEquations

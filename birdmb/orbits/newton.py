@@ -17,6 +17,7 @@ from scipy.sparse.linalg import norm as sparse_norm
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
 from birdmb.orbits.errors import ArgumentError, ConvergenceError, SingularJacobianError
+from birdmb.orbits.iteration import Iteration
 
 Damping = Literal["line-search", "levenberg-marquardt"]
 # Sparse for shooting over many segments, dense for collocation.
@@ -31,32 +32,6 @@ _SINGULAR_CONDITION = 1e14
 # Differences leave a singular Jacobian regular by their noise; a failed search gives it away.
 _SUSPECT_CONDITION = 1e8
 _LARGEST_LM = 1e10
-
-
-@dataclass(frozen=True)
-class Iteration:
-    """One accepted step of a search; number 0 is the guess.
-
-    Attributes:
-        number: steps taken so far.
-        residual: Euclidean norm of the closure errors, in units of the state scale.
-        step_length: Euclidean length of the step, in units of the state scale.
-        damping: fraction of the Newton step taken, or the Levenberg-Marquardt parameter.
-        x: state (n,) at the start of the orbit.
-        period: period in s.
-        jacobian_reused: the step was made with the Jacobian of an earlier point, or a given one,
-            updated by the steps since.
-        nodes: number of collocation nodes; `None` for shooting.
-    """
-
-    number: int
-    residual: float
-    step_length: float
-    damping: float
-    x: FloatArray
-    period: float
-    jacobian_reused: bool = False
-    nodes: int | None = None
 
 
 class Equations(Protocol):

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 import xarray as xr
-from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
-from birdmb.orbits import plots
 from birdmb.orbits.errors import ArgumentError
 from birdmb.orbits.result import FloquetResult
 from birdmb.orbits.segments import sample
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True)
@@ -53,7 +55,9 @@ class PerturbedResponse:
 
     def plot(self) -> Figure:
         """Draw the disturbed states over the orbit."""
-        return plots.plot_response(self.times, self.states, self.orbit, self.state_names)
+        from birdmb.figures import plot_response  # noqa: PLC0415 - it draws
+
+        return plot_response(self)
 
 
 def mode_disturbance(

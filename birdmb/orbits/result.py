@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 import xarray as xr
-from matplotlib.figure import Figure
 
 from birdmb._typing import ComplexArray, FloatArray
-from birdmb.orbits import plots
 from birdmb.orbits.multipliers import Stability, verdict
 from birdmb.orbits.ode import Trajectory
 from birdmb.orbits.periodicity import turns
 from birdmb.orbits.problem import HasDivergence, HasStateUnits, Model
 from birdmb.orbits.segments import JacobianMethod, sample
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _FAR_OUTSIDE = 10.0
 
@@ -166,11 +168,6 @@ class FloquetResult:
             return np.asarray(self.period * np.log(2) / rate)
 
     @property
-    def time_constants(self) -> FloatArray:
-        """Time (n,) in s in which each mode grows or decays by the factor e: 1/|Re exponent|."""
-        return np.asarray(self.doubling_times / np.log(2))
-
-    @property
     def participation(self) -> FloatArray:
         """Share (n, n) of each state (row) in each mode (column), columns summing to 1.
 
@@ -270,7 +267,6 @@ class FloquetResult:
 
     def plot(self) -> Figure:
         """Draw the states over a period and the multipliers in the unit circle."""
-        units = self.model.state_units if isinstance(self.model, HasStateUnits) else None
-        return plots.plot_cycle(
-            self.trajectory(), self.state_names, units, self.multipliers, self.multiplier_errors
-        )
+        from birdmb.figures import plot_orbit  # noqa: PLC0415 - it draws
+
+        return plot_orbit(self)

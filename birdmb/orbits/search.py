@@ -17,7 +17,8 @@ from birdmb.orbits.errors import (
     NotSmoothError,
     require_tolerance,
 )
-from birdmb.orbits.newton import Damping, Iteration
+from birdmb.orbits.iteration import Iteration
+from birdmb.orbits.newton import Damping
 from birdmb.orbits.problem import HasRates, HasRhs, Model
 from birdmb.orbits.result import FloquetResult
 from birdmb.orbits.shooting_search import search_by_shooting

@@ -20,8 +20,9 @@ from birdmb.orbits.errors import (
     ConvergenceError,
     EquilibriumError,
 )
+from birdmb.orbits.iteration import Iteration
 from birdmb.orbits.linearisation import linearise
-from birdmb.orbits.newton import Damping, Iteration, solve
+from birdmb.orbits.newton import Damping, solve
 from birdmb.orbits.periodic import periodic_multipliers
 from birdmb.orbits.periodicity import require_period
 from birdmb.orbits.problem import HasInitialGuess, HasLimitCycleType, Model

@@ -1,20 +1,15 @@
 """Studies of a bird's flight: trim, parameter studies, validity, tunnel, disturbed flight."""
 
 from birdmb.studies.branch import bird_branch, flight_observables
-from birdmb.studies.branch_figure import plot_bird_branch
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.errors import TrimError
 from birdmb.studies.gust import gust_response
-from birdmb.studies.gust_figure import plot_gust_response
-from birdmb.studies.parameter_figures import plot_multiplier_locus, plot_performance
 from birdmb.studies.parameter_study import parameter_study
 from birdmb.studies.perturbed import flight_path, perturbed_flight
-from birdmb.studies.perturbed_figure import plot_perturbed_flight
 from birdmb.studies.scaling import ScaledBird, scale_bird
 from birdmb.studies.tail import stability_openings, tail_study, within_rules
 from birdmb.studies.trim import Trim, TrimGuess, trim_flight
 from birdmb.studies.tunnel import tunnel_and_free_flight
-from birdmb.studies.tunnel_figure import plot_tunnel_and_free_flight
 from birdmb.studies.validity import Excess, Overlap, TailExcess, Validity, assess_validity
 
 __all__ = [
@@ -34,12 +29,6 @@ __all__ = [
     "gust_response",
     "parameter_study",
     "perturbed_flight",
-    "plot_bird_branch",
-    "plot_gust_response",
-    "plot_multiplier_locus",
-    "plot_performance",
-    "plot_perturbed_flight",
-    "plot_tunnel_and_free_flight",
     "scale_bird",
     "stability_openings",
     "tail_study",

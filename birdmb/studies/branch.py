@@ -11,11 +11,10 @@ from typing import Any, TypeAlias, cast
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.errors import BirdmbError, StateError, TopologyError
+from birdmb.errors import ArgumentError, BirdmbError, StateError, TopologyError
 from birdmb.models import FlightCycle, MultibodyModel
 from birdmb.models.wing_model import WingModel
 from birdmb.orbits import (
-    ArgumentError,
     Bifurcation,
     Branch,
     BranchPoint,
@@ -251,6 +250,6 @@ class _LastValidity:
 
 def _angles(cycle: FlightCycle, joint: int) -> FloatArray:
     """Angle (K,) rad of a joint over a beat."""
-    model, beat = cast(WingModel, cycle.model), cycle.beat
+    model, beat = cycle.bird_model, cycle.beat
     at = zip(beat.times, beat.states, strict=True)
     return np.array([model.joint_motion(t, x)[0][joint] for t, x in at])

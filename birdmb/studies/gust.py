@@ -13,9 +13,8 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
 from birdmb._typing import FloatArray, IntArray
-from birdmb.errors import StateError
+from birdmb.errors import ArgumentError, StateError
 from birdmb.models import FlightCycle, Gust, MultibodyModel, RigidModel
-from birdmb.orbits import ArgumentError
 from birdmb.orbits.multipliers import Spectrum
 from birdmb.orbits.periodic import periodic_multipliers
 from birdmb.studies.perturbed import flight_path

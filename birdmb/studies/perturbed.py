@@ -7,7 +7,6 @@ import xarray as xr
 from scipy.interpolate import make_interp_spline
 
 from birdmb._typing import FloatArray
-from birdmb.figures.style import model_of
 from birdmb.models import FlightCycle
 from birdmb.orbits import mode_disturbance, perturbed_response
 
@@ -89,7 +88,7 @@ def perturbed_flight(
             "beat": beats,
             "state": list(cycle.state_names),
         },
-        attrs={"bird": model_of(cycle).bird.name, "amplitude": amplitude, "period": cycle.period},
+        attrs={"bird": cycle.bird_model.bird.name, "amplitude": amplitude, "period": cycle.period},
     )
 
 

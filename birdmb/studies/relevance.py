@@ -8,9 +8,8 @@ from functools import partial
 from itertools import chain, islice
 from typing import Any
 
-from birdmb.errors import TopologyError
+from birdmb.errors import ArgumentError, TopologyError
 from birdmb.models import RigidModel
-from birdmb.orbits import ArgumentError
 from birdmb.studies.cycles import ModelFactory
 from birdmb.topology import Bird
 from birdmb.topology.parts import BONES

@@ -9,8 +9,7 @@ import numpy as np
 from scipy.optimize import root
 
 from birdmb._typing import FloatArray
-from birdmb.errors import BirdmbError
-from birdmb.orbits import ArgumentError
+from birdmb.errors import ArgumentError, BirdmbError
 from birdmb.topology import BONES, Bird
 from birdmb.wing.outline import span_and_area
 

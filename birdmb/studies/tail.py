@@ -12,9 +12,8 @@ import xarray as xr
 from scipy.optimize import brentq
 
 from birdmb._typing import FloatArray
-from birdmb.errors import BirdmbError
+from birdmb.errors import ArgumentError, BirdmbError
 from birdmb.models import RigidModel
-from birdmb.orbits import ArgumentError
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.sweeps import Finished, Study, Trimming, sweep
 from birdmb.studies.trim import Trim, TrimGuess, trim_flight

@@ -6,16 +6,16 @@ from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 from scipy.optimize import least_squares, root_scalar
 
 from birdmb._typing import FloatArray
-from birdmb.errors import OrbitError, StateError
-from birdmb.models import FlightCycle, RigidModel, WingModel
-from birdmb.orbits import ArgumentError, FloquetResult
+from birdmb.errors import ArgumentError, OrbitError, StateError
+from birdmb.models import FlightCycle, RigidModel
+from birdmb.orbits import FloquetResult
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.errors import TrimError
 from birdmb.studies.trim_search import Trimmed, TrimSearch
@@ -193,5 +193,5 @@ def _result(search: TrimSearch, from_guess: bool) -> Trim:
     if not search.is_trimmed(best):
         raise TrimError(search.not_trimmed(best), values, best.reached)
     residual = float(np.abs(best.differences).max())
-    bird = cast("WingModel", best.cycle.model).bird
+    bird = best.cycle.bird_model.bird
     return Trim(bird, best.cycle, values, residual, len(search.found), from_guess)

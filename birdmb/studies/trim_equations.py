@@ -15,7 +15,8 @@ from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError, StateError
 from birdmb.models.flight_cycle import world_velocity
 from birdmb.models.wing_model import WingModel
-from birdmb.orbits.newton import Iteration, solve
+from birdmb.orbits.iteration import Iteration
+from birdmb.orbits.newton import solve
 from birdmb.studies.cycles import KeptModels
 
 _TOLERANCE = 1e-10  # below what cycles are searched to, so that theirs is met at once

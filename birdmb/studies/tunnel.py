@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import cast
 
 import numpy as np
 import xarray as xr
 
 from birdmb._typing import FloatArray
-from birdmb.models import FlightCycle, Loads, WingModel
+from birdmb.models import FlightCycle, Loads
 from birdmb.models.wing_model import BODY_STATES
 
 _Q, _THETA = 2, 3
@@ -36,7 +35,7 @@ def tunnel_and_free_flight(cycle: FlightCycle) -> xr.Dataset:
         the body's centre of mass, nose up); `wing_power` (W); `force` (N, body axes, by `axis`);
         `body_state` (by `state`).
     """
-    model, beat = cast(WingModel, cycle.model), cycle.beat
+    model, beat = cycle.bird_model, cycle.beat
     held = beat.states.copy()
     held[:, : _THETA + 1] = beat.states[:-1, : _THETA + 1].mean(axis=0)
     held[:, _Q] = 0.0

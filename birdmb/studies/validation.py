@@ -3,6 +3,8 @@
 Each case is flown by the command that it names, so that a reader can take it from there.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path

@@ -21,16 +21,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
-from matplotlib.figure import Figure
 
 from birdmb._typing import BoolArray, FloatArray
-from birdmb.models import FlightCycle, WingModel
-from birdmb.studies.validity_figure import plot_validity
+from birdmb.models import FlightCycle
 from birdmb.wing.outline import areas_across, wing_outline
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 TIP_AREA = 0.01
 LARGEST_ANGLE = float(np.radians(15.0))
@@ -167,7 +168,7 @@ class Validity:
 
         Relative to the body, along its z axis (Taylor, Nudds & Thomas 2003).
         """
-        model, beat = cast(WingModel, self.cycle.model), self.cycle.beat
+        model, beat = self.cycle.bird_model, self.cycle.beat
         angles, _ = model.joint_motion_along(beat.times, beat.states)
         discretisation = model.bird.wing.resolved_discretisation
         heights = [wing_outline(model.wing, at, discretisation).line[-1, 2] for at in angles]
@@ -186,6 +187,8 @@ class Validity:
 
     def plot(self) -> Figure:
         """Draw both angles of attack over beat and span, with the limits of validity."""
+        from birdmb.figures import plot_validity  # noqa: PLC0415 - it draws
+
         return plot_validity(self.data)
 
 
@@ -207,7 +210,7 @@ def assess_validity(
         largest_overlap: largest part of the wing's area across the plane of symmetry. (A lifting
             line that crosses it has no loads and no cycle: `WingModel.loads`.)
     """
-    model = cast(WingModel, cycle.model)
+    model = cycle.bird_model
     frequency = model.bird.gait.frequency
     data = _along_span_and_beat(cycle, frequency).assign_attrs(
         bird=model.bird.name, largest_angle=largest_angle, tip_area=TIP_AREA

@@ -1,5 +1,7 @@
 """What of a bird meets the air besides its lifting line: the tail, and the drags."""
 
+from __future__ import annotations
+
 import math
 from typing import Annotated, ClassVar, Literal
 

@@ -1,5 +1,7 @@
 """The bird: one immutable, validated value that everything else is computed from."""
 
+from __future__ import annotations
+
 import hashlib
 import json
 from collections.abc import Iterable, Mapping
@@ -10,7 +12,7 @@ from pydantic import Field, field_validator, model_validator
 
 from birdmb.errors import TopologyError
 from birdmb.topology.airframe import Drag, Tail
-from birdmb.topology.messages import nearest, problem, shown
+from birdmb.topology.messages import nearest, problem, shown, validated
 from birdmb.topology.names import Label
 from birdmb.topology.numbers import Gravity
 from birdmb.topology.parts import (
@@ -24,7 +26,7 @@ from birdmb.topology.parts import (
     Segment,
     Wing,
 )
-from birdmb.topology.values import named_places, value_of, varied
+from birdmb.topology.values import is_resolution, named_places, place_of, put_values, value_at
 
 
 class Segments(Part):
@@ -176,18 +178,23 @@ class Bird(Part):
         In SI units and rad, or in degrees where the name ends in `_deg`. Raises `TopologyError` for
         an unknown name.
         """
-        return value_of(self, name)
+        place = place_of(name, named_places(self), self.name)
+        return value_at(self._document(resolved=is_resolution(name)), place)
 
-    def with_values(self, values: Mapping[str, Any]) -> "Bird":
+    def with_values(self, values: Mapping[str, Any]) -> Bird:
         """Return a bird with other values under dotted names, as `{"body.mass": 1.3}`.
 
         A stiffness or damping given to a prescribed joint makes it compliant, unless its mode is
         given too; without a damping it gets none. Raises `TopologyError` for an unknown name or a
         value that a file must not have either.
         """
-        return varied(self, values)
+        # Defaults are left out where they must follow a change, as the mid-bone follows the length.
+        document = self._document(resolved=any(map(is_resolution, values)), exclude_unset=True)
+        put_values(document, values, named_places(self), self.name)
+        changed = ", ".join(f"{name} = {shown(value)}" for name, value in values.items())
+        return validated(type(self), document, f"{self.name} (with {changed})")
 
-    def with_joint(self, name: str, **values: Any) -> "Bird":
+    def with_joint(self, name: str, **values: Any) -> Bird:
         """Return a bird with other values of one joint, as `stiffness=20` or `offset_deg=-5`.
 
         Works and raises as `with_values`.
@@ -195,20 +202,22 @@ class Bird(Part):
         self.joint(name)
         return self.with_values({f"{name}.{key}": value for key, value in values.items()})
 
-    def with_gait(self, **values: Any) -> "Bird":
-        """Return a bird with another gait, as `frequency=5` (Hz); raises as `with_values`."""
-        return self.with_values({f"gait.{key}": value for key, value in values.items()})
-
     def fingerprint(self) -> str:
         """Return a SHA-256 hash of all values, in hexadecimal, the same in any process.
 
         A preset counts by its numbers, so that results stored under an older preset are not taken
         for new ones.
         """
-        document = self.model_dump(mode="json")
-        document["wing"]["discretisation"] = self.wing.resolved_discretisation.model_dump()
+        document = self._document(resolved=True, mode="json")
         canonical = json.dumps(document, sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(canonical.encode()).hexdigest()
+
+    def _document(self, *, resolved: bool, **options: Any) -> dict[str, Any]:
+        """What `model_dump` returns; `resolved` with the numbers of the discretisation's preset."""
+        document = self.model_dump(**options)
+        if resolved:
+            document["wing"]["discretisation"] = self.wing.resolved_discretisation.model_dump()
+        return document
 
 
 def _first_repeated(names: Iterable[str]) -> str | None:

@@ -1,5 +1,7 @@
 """Reading a bird from a topology file."""
 
+from __future__ import annotations
+
 import tomllib
 from os import PathLike
 from pathlib import Path

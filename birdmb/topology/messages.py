@@ -1,5 +1,7 @@
 """One sentence, in the user's own names, for whatever is wrong with a topology document."""
 
+from __future__ import annotations
+
 import difflib
 import json
 from collections.abc import Iterable, Iterator, Mapping

@@ -1,5 +1,7 @@
 """Names in a topology file: one short line each, since reports, figures and files carry them."""
 
+from __future__ import annotations
+
 from typing import Annotated
 
 from pydantic import AfterValidator

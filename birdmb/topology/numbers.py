@@ -6,6 +6,8 @@ overflows or vanishes where a few of these numbers are multiplied or divided. Ze
 number: where it is allowed, it means that there is nothing of the kind.
 """
 
+from __future__ import annotations
+
 from typing import Annotated
 
 from pydantic import AfterValidator, Field, Strict

@@ -4,6 +4,8 @@ Right wing; the left one is its mirror image. Body frame: x forward, y right, z 
 bone straight out: the same directions, with y along the bone outwards.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping
 from types import MappingProxyType

@@ -1,5 +1,7 @@
 """Values of a bird that its own other values leave without effect."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 
 from birdmb.topology.bird import Bird

@@ -1,18 +1,17 @@
 """Dotted names: one way to read and to vary every value of a bird, in files, Python and studies."""
 
+from __future__ import annotations
+
 import math
 import tomllib
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from birdmb.errors import TopologyError
-from birdmb.topology.messages import Location, nearest, shown, validated
+from birdmb.topology.messages import Location, nearest, shown
 from birdmb.topology.parts import Part, Wing
-
-if TYPE_CHECKING:
-    from birdmb.topology.bird import Bird
 
 _RESOLUTION = "wing.discretisation"
 
@@ -38,8 +37,11 @@ def parse_assignment(text: str) -> tuple[str, Any]:
     return name, document["value"]
 
 
-def named_places(bird: "Bird") -> dict[str, Location]:
-    """Return every dotted name of a bird with the place of its value in the bird's document."""
+def named_places(bird: Part) -> dict[str, Location]:
+    """Every dotted name of a bird with the place of its value in the bird's document.
+
+    The document is what `model_dump` returns: tables within tables.
+    """
     return dict(_walk(bird, "", ()))
 
 
@@ -65,41 +67,63 @@ def _walk(part: Part, prefix: str, place: Location) -> Iterator[tuple[str, Locat
             yield from ((f"{name}.{joint}", (*here, joint)) for joint, _ in child)
 
 
-def value_of(bird: "Bird", name: str) -> Any:
-    """Return the value of a dotted name; see `Bird.value`."""
-    *parents, key = _place(bird, name, named_places(bird))
-    table: Any = _document(bird, resolved=_is_resolution(name), as_written=False)
+def place_of(name: str, known: Mapping[str, Location], owner: str) -> Location:
+    """The place of a dotted name among those `known`; `owner` is whose they are, for the error.
+
+    Raises:
+        TopologyError: there is no such name.
+    """
+    if name not in known:
+        raise TopologyError(
+            f"{owner}: no value is called {shown(name)}; the nearest: {nearest(name, known)}"
+        )
+    return known[name]
+
+
+def value_at(document: Mapping[str, Any], place: Location) -> Any:
+    """The value at a place of a document; an angle also in the unit that is not written."""
+    *parents, key = place
+    table: Any = document
     for part in parents:
         table = table[part]
     if key in table:
         return table[key]
-    return math.degrees(table[_twin(key)])
+    return math.degrees(table[_other_unit(key)])
 
 
-def varied(bird: "Bird", values: Mapping[str, Any]) -> "Bird":
-    """Return the bird with other values, validated as a whole; see `Bird.with_values`."""
-    known = named_places(bird)
-    resolved = any(map(_is_resolution, values))
+def put_values(
+    document: dict[str, Any],
+    values: Mapping[str, Any],
+    known: Mapping[str, Location],
+    owner: str,
+) -> None:
+    """Put other values into a bird's document, under the dotted names `known`.
+
+    Raises:
+        TopologyError: a name is unknown, or set as a whole and in parts; `owner` is whose.
+    """
     for whole in values:
         if any(name.startswith(f"{whole}.") for name in values):
             raise TopologyError(
-                f"{bird.name}: {whole} is set as a whole and in parts; keep one of the two"
+                f"{owner}: {whole} is set as a whole and in parts; keep one of the two"
             )
-    document = _document(bird, resolved=resolved, as_written=True)
     changes = []
     for name, value in values.items():
-        *parents, key = _place(bird, name, known)
+        *parents, key = place_of(name, known, owner)
         table: Any = document
         for part in parents:
             table = table[part] if isinstance(part, int) else table.setdefault(part, {})
-        table.pop(_twin(key), None)  # the same angle in the other unit
+        table.pop(_other_unit(key), None)
         changes.append((table, key, value))
     for table, key, value in changes:
         table[key] = value.tolist() if isinstance(value, np.ndarray | np.generic) else value
     for joint in document["joints"]:
         _free_if_sprung(joint, values)
-    changed = ", ".join(f"{name} = {shown(value)}" for name, value in values.items())
-    return validated(type(bird), document, f"{bird.name} (with {changed})")
+
+
+def is_resolution(name: str) -> bool:
+    """Whether a dotted name is of a number that the discretisation's preset stands for."""
+    return name.startswith(f"{_RESOLUTION}.")
 
 
 def _free_if_sprung(joint: dict[str, Any], values: Mapping[str, Any]) -> None:
@@ -113,27 +137,7 @@ def _free_if_sprung(joint: dict[str, Any], values: Mapping[str, Any]) -> None:
         joint["damping"] = 0.0
 
 
-def _document(bird: "Bird", *, resolved: bool, as_written: bool) -> dict[str, Any]:
-    # Defaults are left out where they must follow a change, as the mid-bone follows the length.
-    document = bird.model_dump(exclude_unset=as_written)
-    if resolved:
-        document["wing"]["discretisation"] = bird.wing.resolved_discretisation.model_dump()
-    return document
-
-
-def _place(bird: "Bird", name: str, known: Mapping[str, Location]) -> Location:
-    if name not in known:
-        raise TopologyError(
-            f"{bird.name}: no value is called {shown(name)}; the nearest: {nearest(name, known)}"
-        )
-    return known[name]
-
-
-def _is_resolution(name: str) -> bool:
-    return name.startswith(f"{_RESOLUTION}.")
-
-
-def _twin(key: str | int) -> str:
-    """Return the key of the same angle in the other unit."""
+def _other_unit(key: str | int) -> str:
+    """The key of the same angle in the other unit."""
     key = str(key)
     return key.removesuffix("_deg") if key.endswith("_deg") else f"{key}_deg"

@@ -14,7 +14,7 @@ from rich.console import Console
 
 from birdmb.cli.sweep import SweepProgress, _line
 from birdmb.studies.sweeps import Finished, Study
-from birdmb.studies.sweeps.point import Outcome
+from birdmb.studies.sweeps.tasks import Outcome
 
 from .conftest import HANGS, IBIS
 

@@ -15,11 +15,11 @@ from birdmb.figures.style import downstrokes, stroke_speed
 from birdmb.figures.wing import BEHIND, OBLIQUE, TOP
 
 ALL = (
-    figures.states,
-    figures.multipliers,
-    figures.loads_and_power,
-    figures.wing_phases,
-    figures.overview,
+    figures.plot_states,
+    figures.plot_multipliers,
+    figures.plot_loads_and_power,
+    figures.plot_wing_phases,
+    figures.plot_overview,
 )
 
 
@@ -56,7 +56,7 @@ def test_a_glider_can_be_drawn(gliding, draw):
 
 
 def test_states_are_in_degrees_beside_their_drivers(cycle):
-    figure = figures.states(cycle)
+    figure = figures.plot_states(cycle)
     by_label = {axes.get_ylabel(): axes for axes in figure.axes}
     assert list(by_label) == [
         "u (m/s)",
@@ -87,7 +87,7 @@ def test_downstroke(cycle):
 
 
 def test_multipliers_are_labelled(cycle):
-    (axes,) = figures.multipliers(cycle).axes
+    (axes,) = figures.plot_multipliers(cycle).axes
     texts = [text.get_text() for text in axes.texts]
     assert texts[0] == (
         f"|Λ| = {abs(cycle.multipliers[0]):.3f}\ndoubles in {cycle.doubling_times[0]:.2g} s"
@@ -101,7 +101,7 @@ def test_multipliers_are_labelled(cycle):
 
 
 def test_means_stand_in_the_loads(cycle):
-    figure = figures.loads_and_power(cycle)
+    figure = figures.plot_loads_and_power(cycle)
     texts = [t.get_text() for axes in figure.axes for t in axes.get_legend().get_texts()]
     assert f"mean {cycle.power:.3g} W".replace("-", "−") in texts
     for name, power in cycle.joint_powers.items():
@@ -109,7 +109,7 @@ def test_means_stand_in_the_loads(cycle):
 
 
 def test_wings_are_drawn_to_one_scale_with_their_circulation(cycle):
-    figure = figures.wing_phases(cycle)
+    figure = figures.plot_wing_phases(cycle)
     FigureCanvasAgg(figure).draw()
     axes = figure.axes[0]
     origin, right, up = axes.transData.transform([[0, 0], [1, 0], [0, 1]])
@@ -139,12 +139,12 @@ def test_views_show_right_on_the_right_and_up_upwards():
 
 
 def test_plot_is_the_overview(cycle):
-    assert len(cycle.plot().axes) == len(figures.overview(cycle).axes)
+    assert len(cycle.plot().axes) == len(figures.plot_overview(cycle).axes)
 
 
 def test_figures_import_no_model():
     script = (
-        "import sys, birdmb.figures; "
+        "import sys; from birdmb.figures import plot_orbit, plot_overview; "
         "print([m for m in sys.modules if m.startswith('birdmb.models') or m == 'exudyn' "
         "or m == 'matplotlib.pyplot'])"
     )
@@ -161,5 +161,5 @@ def test_figures_import_no_model():
 def test_the_overview_says_first_what_speaks_against_the_numbers(cycle, doubt, says):
     doubtful = replace(cycle)
     vars(doubtful).update(doubt)
-    titles = [part.get_suptitle() for part in figures.overview(doubtful).subfigs]
+    titles = [part.get_suptitle() for part in figures.plot_overview(doubtful).subfigs]
     assert any(says in title for title in titles)

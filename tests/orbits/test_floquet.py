@@ -131,7 +131,7 @@ def test_exponents_are_those_of_the_constant_matrix():
     result = floquet(model, model.orbit(0))
     exact = np.linalg.eigvals(model.matrix)
     assert np.sort_complex(result.exponents) == pytest.approx(np.sort_complex(exact), abs=1e-8)
-    assert np.sort(result.time_constants) == pytest.approx(np.sort(1 / np.abs(exact.real)))
+    assert np.sort(result.doubling_times) == pytest.approx(np.sort(np.log(2) / np.abs(exact.real)))
 
 
 def test_participation_does_not_depend_on_units_and_finds_the_state():

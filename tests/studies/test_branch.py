@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 import birdmb
-from birdmb.orbits import ArgumentError, Steps
+from birdmb.errors import ArgumentError
+from birdmb.figures import plot_bird_branch
+from birdmb.orbits import Steps
 from birdmb.studies.branch import OBSERVABLE_UNITS, bird_branch
-from birdmb.studies.branch_figure import plot_bird_branch
 
 STIFFNESS = "shoulder.flap.stiffness"
 AMPLITUDE = "shoulder.flap.amplitude_deg"

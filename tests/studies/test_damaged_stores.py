@@ -11,10 +11,10 @@ import pytest
 import birdmb
 from birdmb.studies.sweeps import Study, SweepError
 from birdmb.studies.sweeps.grid import Grid
-from birdmb.studies.sweeps.point import Outcome
 from birdmb.studies.sweeps.settings import Search, identity
 from birdmb.studies.sweeps.store import Store, read
 from birdmb.studies.sweeps.study import _BY_MULTIPLIER, _NUMBERS
+from birdmb.studies.sweeps.tasks import Outcome
 
 from .sweeping import MASS, QUICK, coarse_bird
 

@@ -5,7 +5,8 @@ import pytest
 import xarray as xr
 
 import birdmb
-from birdmb.studies import parameter_study, plot_multiplier_locus, plot_performance
+from birdmb.figures import plot_multiplier_locus, plot_performance
+from birdmb.studies import parameter_study
 
 AMPLITUDE = "shoulder.flap.amplitude_deg"
 

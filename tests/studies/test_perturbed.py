@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import birdmb
-from birdmb.studies import flight_path, perturbed_flight, plot_perturbed_flight
+from birdmb.figures import plot_perturbed_flight
+from birdmb.studies import flight_path, perturbed_flight
 
 
 @pytest.fixture(scope="module")

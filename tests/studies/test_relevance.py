@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import birdmb
-from birdmb.orbits import ArgumentError
+from birdmb.errors import ArgumentError
 from birdmb.studies import parameter_study
 from birdmb.studies.relevance import check_relevant, ignored_values
 from birdmb.studies.sweeps import sweep

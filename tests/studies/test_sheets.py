@@ -8,8 +8,8 @@ import pytest
 import birdmb
 from birdmb.errors import OrbitError
 from birdmb.studies.sweeps import point, sweep
-from birdmb.studies.sweeps.point import Guess, Task
 from birdmb.studies.sweeps.sheets import SheetEndError, on_sheet
+from birdmb.studies.sweeps.tasks import Guess, Task
 
 from .sweeping import MASS, QUICK, Inline, coarse_bird
 from .test_sweep_jumps import FALLING, MASSES

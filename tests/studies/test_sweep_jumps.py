@@ -7,10 +7,12 @@ import pytest
 import xarray as xr
 
 import birdmb
-from birdmb.studies.sweeps import Trimming, figures, sweep
+from birdmb.figures import plot_sweep
+from birdmb.studies.sweeps import Trimming, sweep
 from birdmb.studies.sweeps.grid import Grid
 from birdmb.studies.sweeps.jumps import jumps, neighbours_apart
-from birdmb.studies.sweeps.point import Guess, described
+from birdmb.studies.sweeps.point import described
+from birdmb.studies.sweeps.tasks import Guess
 from birdmb.studies.sweeps.verdicts import jump_lines, verdict_lines
 
 from .sweeping import AMPLITUDE, MASS, QUICK, Inline, coarse_bird
@@ -80,7 +82,7 @@ def test_maps_draw_a_line_between_the_cells(derailed):
     wide = xr.concat([data, data.assign_coords({AMPLITUDE: [44.0]})], AMPLITUDE)
     plane = wide.transpose(MASS, AMPLITUDE, ...)
     plane.attrs = data.attrs
-    axes = figures.plot_study(plane, "mean_speed", {}).axes[0]
+    axes = plot_sweep(plane, "mean_speed", {}).axes[0]
     drawn = [line.get_xydata().tolist() for line in axes.lines if len(line.get_xdata()) == 2]
     assert drawn == [[[1.25, 41.0], [1.25, 43.0]], [[1.25, 43.0], [1.25, 45.0]]]
 

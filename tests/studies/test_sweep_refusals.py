@@ -7,7 +7,7 @@ from functools import partial
 import pytest
 
 import birdmb
-from birdmb.orbits import ArgumentError
+from birdmb.errors import ArgumentError
 from birdmb.studies.sweeps import Study, SweepError, Trimming, sweep
 
 from .sweeping import AMPLITUDE, MASS, QUICK, SMALL, Inline, coarse_bird, small_sweep
@@ -124,7 +124,7 @@ def test_what_cannot_be_meant_is_said_at_once(tmp_path):
     with pytest.raises(birdmb.TopologyError, match="nearest"):
         sweep(coarse_bird(), {"body.mas": [1.0]}, store=store)
     assert not store.exists()
-    with pytest.raises(birdmb.OrbitError, match="method"):
+    with pytest.raises(ArgumentError, match="method"):
         small_sweep(store, method="guessing")
 
 

@@ -7,8 +7,9 @@ import numpy as np
 
 import birdmb
 from birdmb.studies.sweeps import Study, point, sweep
-from birdmb.studies.sweeps.point import Guess, Task, compute
+from birdmb.studies.sweeps.point import compute
 from birdmb.studies.sweeps.settings import Search
+from birdmb.studies.sweeps.tasks import Guess, Task
 
 from .sweeping import MASS, QUICK, Inline, coarse_bird
 

@@ -7,14 +7,14 @@ import pytest
 import xarray as xr
 
 import birdmb
-from birdmb.studies import tail as study
-from birdmb.studies.tail import AMPLITUDE, OPENING, ROLL, SWEEP
-from birdmb.studies.tail_figures import (
+from birdmb.figures import (
     plot_envelope,
     plot_manifold,
     plot_pareto,
     plot_stability_openings,
 )
+from birdmb.studies import tail as study
+from birdmb.studies.tail import AMPLITUDE, OPENING, ROLL, SWEEP
 
 
 @pytest.fixture(scope="module")

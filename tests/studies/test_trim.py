@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import birdmb
-from birdmb.orbits import ArgumentError
+from birdmb.errors import ArgumentError
 from birdmb.studies import TrimError, trim_flight
 from birdmb.studies.trim import TrimGuess
 from tests.conftest import REFERENCE

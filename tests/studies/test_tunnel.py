@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import birdmb
-from birdmb.studies import plot_tunnel_and_free_flight, tunnel_and_free_flight
+from birdmb.figures import plot_tunnel_and_free_flight
+from birdmb.studies import tunnel_and_free_flight
 
 
 def heavy_cycle(bird, quick, factor):

@@ -168,7 +168,7 @@ def test_birds_do_not_change(ibis):
     with pytest.raises(ValidationError):
         ibis.body.mass = 2
     before = ibis.fingerprint()
-    assert ibis.with_gait(frequency=5).period == 0.2
+    assert ibis.with_values({"gait.frequency": 5}).period == 0.2
     assert ibis.fingerprint() == before
 
 

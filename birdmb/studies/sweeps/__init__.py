@@ -2,7 +2,7 @@
 
 `grid` says which points there are and which neighbour each starts from, `point` computes one,
 `store` keeps it, `workers` are the processes, `run` brings them together; `study` is what has been
-found, `figures` draws it.
+found.
 """
 
 from birdmb.studies.sweeps.errors import SweepError

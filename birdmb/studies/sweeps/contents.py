@@ -17,7 +17,7 @@ from typing import Any
 
 from birdmb.studies.sweeps.errors import SweepError
 from birdmb.studies.sweeps.grid import Grid, Place
-from birdmb.studies.sweeps.point import Outcome
+from birdmb.studies.sweeps.tasks import Outcome
 from birdmb.text import on_one_line
 
 APPLICATION = 0x62697264  # "bird": tells a study from any other SQLite file

@@ -12,7 +12,8 @@ from typing import TypeAlias
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.sweeps.errors import SweepError
 from birdmb.studies.sweeps.grid import Place
-from birdmb.studies.sweeps.point import COLD, Outcome, Task, compute
+from birdmb.studies.sweeps.point import COLD, compute
+from birdmb.studies.sweeps.tasks import Outcome, Task
 from birdmb.studies.sweeps.workers import process_pool
 from birdmb.topology import Bird
 

@@ -1,5 +1,7 @@
 """What can go wrong with a sweep as a whole; what goes wrong at a point is its outcome."""
 
+from __future__ import annotations
+
 from birdmb.errors import BirdmbError
 
 

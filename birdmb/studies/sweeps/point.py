@@ -7,12 +7,11 @@ import textwrap
 import time
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from typing import Any, cast
 
 import numpy as np
 
-from birdmb._typing import FloatArray
 from birdmb.errors import BirdmbError, OrbitError, StateError
 from birdmb.models import FlightCycle
 from birdmb.models.wing_model import WingModel
@@ -20,80 +19,18 @@ from birdmb.orbits import Model, NotSmoothError, find_limit_cycle
 from birdmb.orbits.collocation import FIRST_NODES
 from birdmb.orbits.problem import HasGuessedPath, HasInitialGuess, HasRates
 from birdmb.studies.cycles import ModelFactory, path_for_search, shot_near
-from birdmb.studies.sweeps.grid import Value
 from birdmb.studies.sweeps.sensitivity import sensitivities
-from birdmb.studies.sweeps.settings import Search, Trimming
+from birdmb.studies.sweeps.settings import Trimming
 from birdmb.studies.sweeps.sheets import on_sheet
+from birdmb.studies.sweeps.tasks import Guess, Outcome, Task
 from birdmb.studies.trim import TrimGuess, trim_flight
 from birdmb.studies.validity import assess_validity
 from birdmb.threads import one_thread
 from birdmb.topology import Bird
 
 COLD = "cold"
-KEPT_FOR_NEIGHBOURS = (
-    *("x0", "monodromy", "trimmed", "method", "orbit", "state_scale", "sensitivity"),
-)
 _DIGITS = 6  # after the point, of states in units of their scale
 _LONGEST_REASON = 600  # characters; foreign errors may bring a traceback
-
-
-@dataclass(frozen=True)
-class Guess:
-    """A neighbour's flight to start from.
-
-    Attributes:
-        place: the neighbour's, as the store writes it.
-        values: of the parameters there, by name.
-        flight: what the store keeps of it, as `described`, by the names KEPT_FOR_NEIGHBOURS.
-    """
-
-    place: str
-    values: Mapping[str, Value]
-    flight: Mapping[str, Any]
-
-    @property
-    def state_names(self) -> tuple[str, ...]:
-        """Names of its n states."""
-        return tuple(self.flight["x0"])
-
-    @property
-    def orbit(self) -> FloatArray:
-        """States (K, n) at K even instants of its beat; K = 1 if it was shot."""
-        if self.flight["orbit"] is None:
-            return np.array([list(self.flight["x0"].values())])
-        return np.array(self.flight["orbit"]) * self.flight["state_scale"]
-
-
-@dataclass(frozen=True)
-class Task:
-    """All that the outcome of a point depends on; `steps` are those of its sensitivities."""
-
-    bird: Bird
-    model: ModelFactory
-    search: Search
-    values: Mapping[str, Value]
-    steps: Mapping[str, float]
-    guess: Guess | None
-    trimming: Trimming | None
-    keep_to_sheet: bool = False
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """What became of a point.
-
-    Attributes:
-        result: the limit cycle as `described`; `None` if none was found.
-        reason: why none was found, else empty.
-        start: place of the neighbour that the search succeeded from, or "cold" where it had, or was
-            left with, the model's own guess.
-        seconds: how long it took.
-    """
-
-    result: dict[str, Any] | None
-    reason: str
-    start: str
-    seconds: float
 
 
 def compute(task: Task) -> Outcome:
@@ -203,7 +140,7 @@ def _trimmed(task: Task, trimming: Trimming) -> tuple[FlightCycle, dict[str, flo
 
 def described(cycle: FlightCycle) -> dict[str, Any]:
     """What is kept of a limit cycle, fit for JSON: units as in `FlightCycle`, `None` for NaN."""
-    model = cast("WingModel", cycle.model)
+    model = cycle.bird_model
     validity = assess_validity(cycle)
     numbers = {
         "residual": cycle.residual,

@@ -19,10 +19,10 @@ from birdmb.studies.relevance import check_relevant
 from birdmb.studies.sweeps.checks import check_processes, check_trimming
 from birdmb.studies.sweeps.dispatch import on_executor, on_processes
 from birdmb.studies.sweeps.grid import Grid, Place, Value, parent
-from birdmb.studies.sweeps.point import KEPT_FOR_NEIGHBOURS, Guess, Outcome, Task
 from birdmb.studies.sweeps.settings import Search, Trimming, identity
 from birdmb.studies.sweeps.store import Store, place_text
 from birdmb.studies.sweeps.study import Study
+from birdmb.studies.sweeps.tasks import KEPT_FOR_NEIGHBOURS, Guess, Outcome, Task
 from birdmb.topology import Bird
 
 _NAMED = 4

@@ -64,7 +64,7 @@ def sensitivities(
         def model_at(point: FloatArray) -> WingModel:
             by_name = dict(zip(names, point.tolist(), strict=True))
             if there == values and by_name == trimmed:
-                return cast("WingModel", cycle.model)
+                return cycle.bird_model
             return cast("WingModel", model(bird.with_values({**there, **by_name})))
 
         return KeptModels(model_at)

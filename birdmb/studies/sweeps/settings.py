@@ -9,7 +9,7 @@ from functools import partial
 from importlib.metadata import version
 from typing import Any, get_args
 
-from birdmb.orbits import ArgumentError
+from birdmb.errors import ArgumentError
 from birdmb.orbits.errors import require_tolerance
 from birdmb.orbits.newton import Damping
 from birdmb.orbits.search import SearchMethod

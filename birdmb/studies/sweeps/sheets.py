@@ -9,20 +9,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from birdmb.errors import BirdmbError, OrbitError, StateError
 from birdmb.studies.sweeps.grid import Value, is_number
 from birdmb.studies.sweeps.jumps import unexplained
-
-if TYPE_CHECKING:
-    from birdmb.studies.sweeps.point import Guess, Task
+from birdmb.studies.sweeps.tasks import Guess, Task
 
 # Of the way to the neighbour. A sheet that ends does so at a fold, where steps of any length fail.
 _FIRST_STEP, _SHORTEST_STEP = 0.5, 1 / 64
 
 Flight = dict[str, Any]
-FlightOf = Callable[["Task"], tuple[Flight, str]]
+FlightOf = Callable[[Task], tuple[Flight, str]]
 """Finds the flight of a task, and where the search succeeded from; raises `BirdmbError`."""
 
 

@@ -24,8 +24,8 @@ from birdmb.studies.sweeps.contents import (
 )
 from birdmb.studies.sweeps.errors import SweepError
 from birdmb.studies.sweeps.grid import Grid, Place
-from birdmb.studies.sweeps.point import Outcome
 from birdmb.studies.sweeps.settings import difference
+from birdmb.studies.sweeps.tasks import Outcome
 
 _TABLES = (
     "create table study (key text primary key, value text not null)",

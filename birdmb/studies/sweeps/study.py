@@ -7,21 +7,22 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 import xarray as xr
-from matplotlib.figure import Figure
 
-from birdmb.studies.sweeps import figures
 from birdmb.studies.sweeps.contents import Contents
 from birdmb.studies.sweeps.errors import SweepError
 from birdmb.studies.sweeps.grid import Grid, Place, Value
 from birdmb.studies.sweeps.jumps import sheet_jumps
-from birdmb.studies.sweeps.point import Outcome
 from birdmb.studies.sweeps.store import read
+from birdmb.studies.sweeps.tasks import Outcome
 from birdmb.topology import Bird
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _NUMBERS = {
     "mean_speed": ("m/s", "mean speed"),
@@ -195,7 +196,9 @@ class Study:
         Raises:
             SweepError: no such quantity or value, or more than two parameters left.
         """
-        return figures.plot_study(self.to_xarray(timings=True), quantity, at or {})
+        from birdmb.figures import plot_sweep  # noqa: PLC0415 - it draws
+
+        return plot_sweep(self.to_xarray(timings=True), quantity, at or {})
 
 
 def _bird(store: str | PathLike[str], held: Contents) -> Bird:

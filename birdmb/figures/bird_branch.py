@@ -10,8 +10,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from birdmb.figures.style import BIFURCATION_MARKERS, VERDICT_COLOURS
 from birdmb.orbits import Branch, BranchPoint
-from birdmb.orbits.plots import MARKERS, VERDICT_COLOURS
 from birdmb.studies.validity import LARGEST_ANGLE
 from birdmb.text import in_figure
 
@@ -42,7 +42,7 @@ def plot_bird_branch(branch: Branch) -> Figure:
     rows[2].set_ylim(top=top)
     rows[2].text(0.99, 0.95, "beyond the model", transform=rows[2].transAxes, ha="right", va="top")
     for found in branch.bifurcations:
-        marker = MARKERS[found.kind]
+        marker = BIFURCATION_MARKERS[found.kind]
         label = f"{found.kind}, {found.parameter:.4g}"
         rows[0].plot(found.parameter, _speed(found.point), marker, color="k", label=label)
         rows[2].plot(found.parameter, _angle(found.point), marker, color="k")

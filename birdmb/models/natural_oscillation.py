@@ -1,4 +1,4 @@
-"""How a compliant joint, or a feather on its hinge, swings by itself."""
+"""Natural oscillation of a compliant joint, and of a feather on its hinge, without air."""
 
 from __future__ import annotations
 
@@ -15,10 +15,11 @@ from birdmb.wing.edges import skeleton
 
 # Of the inertia that the whole wing's mass would have a metre away: round-off of the sum.
 _ROUND_OFF = 1e-14
+_NEAR_RESONANCE = 0.2
 
 
 @dataclass(frozen=True)
-class Spring:
+class NaturalOscillation:
     """A compliant joint or hinge with what it moves, all others held still."""
 
     stiffness: float
@@ -33,8 +34,12 @@ class Spring:
         """Undamped natural frequency, Hz."""
         return math.sqrt(self.stiffness / self.inertia) / (2 * math.pi)
 
+    def is_near(self, frequency: float) -> bool:
+        """Whether driving it at this frequency, Hz, comes close to resonance."""
+        return abs(self.frequency / frequency - 1) < _NEAR_RESONANCE
 
-def spring_of(bird: Bird, joint: Joint) -> Spring:
+
+def joint_oscillation(bird: Bird, joint: Joint) -> NaturalOscillation:
     """Stiffness, damping and carried inertia of a compliant joint, drivers at their offsets."""
     angles = np.array([j.offset for j in bird.joints])
     wing = wing_arrays(bird)
@@ -52,18 +57,23 @@ def spring_of(bird: Bird, joint: Joint) -> Spring:
         inertia += segment.mass * float(lever @ lever)
         inertia += float(local @ np.array(segment.inertia) @ local)
         largest += segment.mass
-    return Spring(
+    return NaturalOscillation(
         stiffness=joint.stiffness or 0.0,
         damping=joint.damping or 0.0,
         inertia=inertia if inertia > _ROUND_OFF * largest else 0.0,
     )
 
 
-def hinge_springs(bird: Bird) -> dict[str, Spring]:
+def joint_oscillations(bird: Bird) -> dict[str, NaturalOscillation]:
+    """Those of the compliant joints, by the joints' names."""
+    return {joint.name: joint_oscillation(bird, joint) for joint in bird.compliant_joints}
+
+
+def hinge_oscillations(bird: Bird) -> dict[str, NaturalOscillation]:
     """Stiffness, damping and inertia of the feathers' hinges, by the hinges' names."""
     hinges = [(f.hinge_name, f.hinge) for f in bird.feathers if f.hinge]
     return {
-        name: Spring(
+        name: NaturalOscillation(
             stiffness=hinge.stiffness,
             damping=hinge.damping,
             inertia=rod.mass

@@ -1,4 +1,4 @@
-"""Figures of a parameter study."""
+"""A parameter study: the mean flights, and where the multipliers go."""
 
 from __future__ import annotations
 
@@ -10,8 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from birdmb.figures.style import LINE
-from birdmb.orbits.plots import STABLE_COLOUR, UNSTABLE_COLOUR
+from birdmb.figures.style import LINE, STABLE_COLOUR, UNSTABLE_COLOUR
 from birdmb.text import in_figure
 
 _ROWS = {

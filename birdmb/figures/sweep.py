@@ -1,4 +1,4 @@
-"""Figures of a study: lines over one parameter, maps over two."""
+"""A sweep: lines over one parameter, maps over two."""
 
 from __future__ import annotations
 
@@ -13,8 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
-from birdmb.figures.style import LINE
-from birdmb.orbits.plots import STABLE_COLOUR, UNSTABLE_COLOUR
+from birdmb.figures.style import LINE, STABLE_COLOUR, UNSTABLE_COLOUR
 from birdmb.studies.sweeps.errors import SweepError
 from birdmb.studies.sweeps.verdicts import verdict_lines
 from birdmb.text import in_figure
@@ -59,7 +58,7 @@ _BACKWARDS: dict[str, Any] = {"ls": "", "marker": "$<$", "color": "k", "markersi
 _JUMP: dict[str, Any] = {"color": "deeppink", "linewidth": 2.4}
 
 
-def plot_study(study: xr.Dataset, quantity: str | None, at: Mapping[str, Any]) -> Figure:
+def plot_sweep(study: xr.Dataset, quantity: str | None, at: Mapping[str, Any]) -> Figure:
     """Draw quantities of a study's dataset; see `Study.plot`."""
     title = in_figure(f"{study.attrs['bird']}, {study.attrs['model']}")
     plane, fixed = _left(study, at)

@@ -1,4 +1,4 @@
-"""What is possible, but probably not meant, about a bird."""
+"""Warnings of what is possible, but probably not meant, about a bird; each is a sentence."""
 
 from __future__ import annotations
 
@@ -8,8 +8,12 @@ import numpy as np
 
 from birdmb._typing import FloatArray
 from birdmb.aerodynamics.prescribed import driven
-from birdmb.cli.inertia import Spring, hinge_springs, spring_of
 from birdmb.errors import StateError
+from birdmb.models.natural_oscillation import (
+    NaturalOscillation,
+    hinge_oscillations,
+    joint_oscillation,
+)
 from birdmb.models.rigid import RigidModel
 from birdmb.studies.refinement import LARGEST_CHANGE, LoadChange
 from birdmb.topology import Bird, Joint
@@ -17,10 +21,9 @@ from birdmb.wing.outline import wing_outline
 
 _PHASES = 24
 _ROUND_OFF = 1e-9  # m
-_NEAR_RESONANCE = 0.2
 
 
-def warnings_on(bird: Bird) -> list[str]:
+def bird_warnings(bird: Bird) -> list[str]:
     """One sentence for each thing to beware of."""
     return [*_on_surroundings(bird), *_on_joints(bird), *_on_hinges(bird), *_on_wing(bird)]
 
@@ -37,36 +40,36 @@ def _on_joints(bird: Bird) -> Iterator[str]:
         yield "no joint has an amplitude: the bird glides, and its limit cycle is a steady flight."
     for joint in bird.joints:
         if joint.mode == "compliant":
-            yield from _on_spring(bird, joint)
+            yield from _on_compliant(bird, joint)
         elif joint.stiffness is not None or joint.damping is not None:
             yield f"{joint.name} is prescribed: its stiffness and damping are not used."
 
 
-def _on_spring(bird: Bird, joint: Joint) -> Iterator[str]:
-    spring = spring_of(bird, joint)
-    if spring.inertia == 0:
+def _on_compliant(bird: Bird, joint: Joint) -> Iterator[str]:
+    free = joint_oscillation(bird, joint)
+    if free.inertia == 0:
         yield (
             f"{joint.name} is compliant, but moves no mass: its acceleration is not determined. "
             f"Give segments.{joint.segment} a mass or an inertia about the joint's axis."
         )
         return
-    if spring.stiffness == 0:
+    if free.stiffness == 0:
         yield f"{joint.name} is compliant with stiffness 0: nothing pulls it towards its driver."
-    yield from _on_resonance(bird, joint.name, spring)
+    yield from _on_resonance(bird, joint.name, free)
 
 
 def _on_hinges(bird: Bird) -> Iterator[str]:
-    for name, spring in hinge_springs(bird).items():
-        if spring.stiffness == 0:
+    for name, free in hinge_oscillations(bird).items():
+        if free.stiffness == 0:
             yield f"{name} has stiffness 0: only the air holds the feather."
-        yield from _on_resonance(bird, name, spring)
+        yield from _on_resonance(bird, name, free)
 
 
-def _on_resonance(bird: Bird, name: str, spring: Spring) -> Iterator[str]:
+def _on_resonance(bird: Bird, name: str, free: NaturalOscillation) -> Iterator[str]:
     beat = bird.gait.frequency
-    if abs(spring.frequency / beat - 1) < _NEAR_RESONANCE:
+    if free.is_near(beat):
         yield (
-            f"{name} swings by itself at {spring.frequency:.3g} Hz, close to the wingbeat of "
+            f"{name} swings by itself at {free.frequency:.3g} Hz, close to the wingbeat of "
             f"{beat:.3g} Hz: expect large excursions."
         )
 
@@ -103,7 +106,7 @@ def _on_overlap(bird: Bird, model: RigidModel, phases: FloatArray) -> Iterator[s
         )
 
 
-def warnings_on_loads(change: LoadChange) -> list[str]:
+def load_warnings(change: LoadChange) -> list[str]:
     """A sentence if the loads change much on another number of elements."""
     if not change.largest > LARGEST_CHANGE:
         return []

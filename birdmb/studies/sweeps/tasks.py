@@ -1,0 +1,78 @@
+"""What a point of a sweep is computed from, and what becomes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from birdmb._typing import FloatArray
+from birdmb.studies.cycles import ModelFactory
+from birdmb.studies.sweeps.grid import Value
+from birdmb.studies.sweeps.settings import Search, Trimming
+from birdmb.topology import Bird
+
+KEPT_FOR_NEIGHBOURS = (
+    *("x0", "monodromy", "trimmed", "method", "orbit", "state_scale", "sensitivity"),
+)
+
+
+@dataclass(frozen=True)
+class Guess:
+    """A neighbour's flight to start from.
+
+    Attributes:
+        place: the neighbour's, as the store writes it.
+        values: of the parameters there, by name.
+        flight: what the store keeps of it, as `described`, by the names KEPT_FOR_NEIGHBOURS.
+    """
+
+    place: str
+    values: Mapping[str, Value]
+    flight: Mapping[str, Any]
+
+    @property
+    def state_names(self) -> tuple[str, ...]:
+        """Names of its n states."""
+        return tuple(self.flight["x0"])
+
+    @property
+    def orbit(self) -> FloatArray:
+        """States (K, n) at K even instants of its beat; K = 1 if it was shot."""
+        if self.flight["orbit"] is None:
+            return np.array([list(self.flight["x0"].values())])
+        return np.array(self.flight["orbit"]) * self.flight["state_scale"]
+
+
+@dataclass(frozen=True)
+class Task:
+    """All that the outcome of a point depends on; `steps` are those of its sensitivities."""
+
+    bird: Bird
+    model: ModelFactory
+    search: Search
+    values: Mapping[str, Value]
+    steps: Mapping[str, float]
+    guess: Guess | None
+    trimming: Trimming | None
+    keep_to_sheet: bool = False
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a point.
+
+    Attributes:
+        result: the limit cycle as `described`; `None` if none was found.
+        reason: why none was found, else empty.
+        start: place of the neighbour that the search succeeded from, or "cold" where it had, or was
+            left with, the model's own guess.
+        seconds: how long it took.
+    """
+
+    result: dict[str, Any] | None
+    reason: str
+    start: str
+    seconds: float
