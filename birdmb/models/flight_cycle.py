@@ -118,7 +118,7 @@ class FlightCycle(SteppedCycle):
     @cached_property
     def turn_rate(self) -> float:
         """Mean rate of the heading, rad/s, to the right positive; 0 in symmetric flight."""
-        return float(_mean(heading_rate(self._bird_model.body_in_space(self._states_of_beat[1]))))
+        return float(_mean(heading_rate(self.bird_model.body_in_space(self._states_of_beat[1]))))
 
     @property
     def path_angle(self) -> float:
