@@ -20,7 +20,7 @@ import numpy as np
 from birdmb._kernels import kernel
 from birdmb._typing import Array, ComplexArray, FloatArray
 from birdmb.wing.line_ends import LineEnds, line_ends
-from birdmb.wing.rounded import RoundedPolyline, point, rounded_polyline, tangent
+from birdmb.wing.rounded import RoundedPolyline, points, points_and_tangents, rounded_polyline
 
 MAX_NEWTON_STEPS = 40
 SHORTEST_DAMPING = 1e-3
@@ -28,6 +28,9 @@ COARSEST = 16
 COARSE_TOLERANCE = 1e-3
 # Of the shift, a fraction of the wing's length: well below anything the loads can tell.
 SHIFT_TOLERANCE = 1e-11
+# Newton's method has entered its region of quadratic convergence where a step is so much smaller
+# than the one before.
+QUADRATIC = 0.1
 
 
 class PairedEdges(NamedTuple):
@@ -39,6 +42,15 @@ class PairedEdges(NamedTuple):
     leading: Array
     trailing: Array
     converged: bool
+
+
+class Pairs(NamedTuple):
+    """Paired points of real edges, each (n, 3) m, and their derivatives by their own shift."""
+
+    leading: FloatArray
+    trailing: FloatArray
+    leading_slope: FloatArray
+    trailing_slope: FloatArray
 
 
 class Linearised(NamedTuple):
@@ -94,12 +106,7 @@ def _solve_tridiagonal(lower: Array, diagonal: Array, upper: Array, rhs: Array) 
 def _pair(
     leading: RoundedPolyline, trailing: RoundedPolyline, s: FloatArray, shift: Array
 ) -> tuple[Array, Array]:
-    A = np.empty((s.size, 3), shift.dtype)
-    B = np.empty((s.size, 3), shift.dtype)
-    for j in range(s.size):
-        point(leading, s[j] - shift[j], A[j])
-        point(trailing, s[j] + 3.0 * shift[j], B[j])
-    return A, B
+    return points(leading, s - shift), points(trailing, s + 3.0 * shift)
 
 
 @kernel
@@ -129,28 +136,19 @@ def _obliqueness(A: Array, B: Array, steps: Array, ends: LineEnds) -> Array:
 
 
 @kernel
-def _linearised(
-    leading: RoundedPolyline,
-    trailing: RoundedPolyline,
-    s: FloatArray,
-    shift: FloatArray,
-    A: FloatArray,
-    B: FloatArray,
-    steps: FloatArray,
-    ends: LineEnds,
-) -> Linearised:
-    n = s.size
-    dA = np.empty((n, 3))
-    dB = np.empty((n, 3))
-    dP = np.empty((n, 3))
-    dc = np.empty((n, 3))
-    for j in range(n):
-        tangent(leading, s[j] - shift[j], dA[j])
-        tangent(trailing, s[j] + 3.0 * shift[j], dB[j])
-        for i in range(3):
-            dP[j, i] = 0.75 * (dB[j, i] - dA[j, i])
-            dc[j, i] = 3.0 * dB[j, i] + dA[j, i]
-            dA[j, i], dB[j, i] = -dA[j, i], 3.0 * dB[j, i]
+def _paired(
+    leading: RoundedPolyline, trailing: RoundedPolyline, s: FloatArray, shift: FloatArray
+) -> Pairs:
+    """As `_pair` with the derivatives, of real edges."""
+    A, slope_A = points_and_tangents(leading, s - shift)
+    B, slope_B = points_and_tangents(trailing, s + 3.0 * shift)
+    return Pairs(A, B, -slope_A, 3.0 * slope_B)
+
+
+@kernel
+def _linearised(pairs: Pairs, steps: FloatArray, ends: LineEnds) -> Linearised:
+    A, B, dA, dB = pairs
+    n = A.shape[0]
     lower = np.zeros(n)
     diagonal = np.ones(n)
     upper = np.zeros(n)
@@ -163,10 +161,11 @@ def _linearised(
             ahead, here, behind = 0.0, ends.tip.real, -ends.tip.real
         for i in range(3):
             c = B[j, i] - A[j, i]
-            diagonal[j] += dc[j, i] * steps[j, i] + here * c * dP[j, i]
+            dP = 0.75 * dA[j, i] + 0.25 * dB[j, i]
+            diagonal[j] += (dB[j, i] - dA[j, i]) * steps[j, i] + here * c * dP
             if j < n - 1:
-                upper[j] += ahead * c * dP[j + 1, i]
-            lower[j] += behind * c * dP[j - 1, i]
+                upper[j] += ahead * c * (0.75 * dA[j + 1, i] + 0.25 * dB[j + 1, i])
+            lower[j] += behind * c * (0.75 * dA[j - 1, i] + 0.25 * dB[j - 1, i])
     return Linearised(lower, diagonal, upper, dA, dB)
 
 
@@ -183,30 +182,57 @@ def _solve_shifts(
     s: FloatArray,
     guess: FloatArray,
     tolerance: float,
-) -> tuple[FloatArray, bool]:
+) -> tuple[FloatArray, Linearised, bool]:
     """Damped Newton iteration for the shifts; also whether it reached the tolerance."""
     shift = guess
     last = s[-1] - s[-2]
     ends = line_ends(leading, trailing, last)
-    A, B = _pair(leading, trailing, s, shift)
-    steps = _steps(A, B, ends, last)
-    F = _obliqueness(A, B, steps, ends)
+    pairs = _paired(leading, trailing, s, shift)
+    steps = _steps(pairs.leading, pairs.trailing, ends, last)
+    F = _obliqueness(pairs.leading, pairs.trailing, steps, ends)
+    linear = _linearised(pairs, steps, ends)
+    earlier = 0.0
     for _ in range(MAX_NEWTON_STEPS):
-        linear = _linearised(leading, trailing, s, shift, A, B, steps, ends)
         step = _newton_step(linear, F)
         before = np.sum(F * F)
         damping = 1.0
         while True:
-            A, B = _pair(leading, trailing, s, shift + damping * step)
-            steps = _steps(A, B, ends, last)
-            F = _obliqueness(A, B, steps, ends)
+            pairs = _paired(leading, trailing, s, shift + damping * step)
+            steps = _steps(pairs.leading, pairs.trailing, ends, last)
+            F = _obliqueness(pairs.leading, pairs.trailing, steps, ends)
             if np.sum(F * F) <= before or damping < SHORTEST_DAMPING:
                 break
             damping *= 0.5
         shift = shift + damping * step
-        if np.max(np.abs(step)) < tolerance:
-            return shift, True
-    return shift, False
+        linear = _linearised(pairs, steps, ends)
+        size = np.max(np.abs(step))
+        # Where full steps converge quadratically, the next one would be about size^3/earlier^2.
+        quadratic = damping == 1.0 and size < QUADRATIC * earlier
+        if size < tolerance or (quadratic and size**3 < tolerance * earlier**2):
+            return shift, linear, True
+        earlier = size
+    return shift, linear, False
+
+
+@kernel
+def _refined(shift: FloatArray, stations: int) -> FloatArray:
+    """Shifts (stations,) by cubic interpolation through those of fewer stations.
+
+    In the cosine's argument, in which both are evenly spread.
+    """
+    n = shift.size
+    finer = np.empty(stations)
+    for j in range(stations):
+        place = j * (n - 1) / (stations - 1)
+        first = min(max(int(place) - 1, 0), n - 4)
+        x = place - first
+        finer[j] = (
+            -shift[first] * (x - 1.0) * (x - 2.0) * (x - 3.0) / 6.0
+            + shift[first + 1] * x * (x - 2.0) * (x - 3.0) / 2.0
+            - shift[first + 2] * x * (x - 1.0) * (x - 3.0) / 2.0
+            + shift[first + 3] * x * (x - 1.0) * (x - 2.0) / 6.0
+        )
+    return finer
 
 
 @kernel
@@ -219,20 +245,14 @@ def solved_line(
     # On many stations Newton's method from zero may end on a line that doubles back on itself; a
     # coarse line, refined, leads to the plain one.
     n = min(COARSEST, stations)
-    s = station_parameters(n)
-    shift, _ = _solve_shifts(leading, trailing, s, np.zeros(n), COARSE_TOLERANCE)
+    shift = np.zeros(n)
     while n < stations:
+        s = station_parameters(n)
+        shift, _, _ = _solve_shifts(leading, trailing, s, shift, COARSE_TOLERANCE)
         n = min(2 * n, stations)
-        finer = station_parameters(n)
-        shift = np.interp(finer, s, shift)
-        s = finer
-        if n < stations:
-            shift, _ = _solve_shifts(leading, trailing, s, shift, COARSE_TOLERANCE)
-    shift, converged = _solve_shifts(leading, trailing, s, shift, SHIFT_TOLERANCE)
-    last = s[-1] - s[-2]
-    ends = line_ends(leading, trailing, last)
-    A, B = _pair(leading, trailing, s, shift)
-    linear = _linearised(leading, trailing, s, shift, A, B, _steps(A, B, ends, last), ends)
+        shift = _refined(shift, n)
+    s = station_parameters(n)
+    shift, linear, converged = _solve_shifts(leading, trailing, s, shift, SHIFT_TOLERANCE)
     return SolvedLine(leading, trailing, s, shift, linear, converged)
 
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from birdmb._kernels import kernel
-from birdmb._typing import Array
+from birdmb._typing import Array, FloatArray
 
 
 class RoundedPolyline(NamedTuple):
@@ -61,6 +61,11 @@ def smooth_step(x: complex) -> complex:
         return 0.0 * x
     if x.real >= 1.0:
         return 0.0 * x + 1.0
+    return _step_within(x)
+
+
+@kernel
+def _step_within(x: complex) -> complex:
     square = x * x
     return 0.5 + 15.0 / 16.0 * x * (1.0 - square * (2.0 / 3.0 - square / 5.0))
 
@@ -72,23 +77,66 @@ def _smooth_ramp(x: complex) -> complex:
         return 0.0 * x
     if x.real >= 1.0:
         return x
+    return _ramp_within(x)
+
+
+@kernel
+def _ramp_within(x: complex) -> complex:
     square = x * x
     bulge = square * (0.5 - square * (1.0 / 6.0 - square / 30.0))
     return 5.0 / 32.0 + 0.5 * x + 15.0 / 16.0 * bulge
 
 
 @kernel
-def point(line: RoundedPolyline, s: complex, out: Array) -> None:
-    """Write the point (3,) m at parameter s; before 0 and after 1 the end legs go straight on."""
-    for i in range(3):
-        out[i] = line.start[i] + s * line.tangent[i]
-    for k in range(line.corner.size):
-        past = s - line.corner[k]
-        if past.real <= -line.width[k].real:
-            break
-        ramp = line.width[k] * _smooth_ramp(past / line.width[k])
+def points(line: RoundedPolyline, parameters: Array) -> Array:
+    """Points (n, 3) m at n parameters; before 0 and after 1 the end legs go straight on."""
+    n = parameters.size
+    found = np.empty((n, 3), line.start.dtype)
+    for j in range(n):
+        s = parameters[j]
         for i in range(3):
-            out[i] += line.turn[k, i] * ramp
+            found[j, i] = line.start[i] + s * line.tangent[i]
+        for k in range(line.corner.size):
+            past = s - line.corner[k]
+            if past.real <= -line.width[k].real:
+                break
+            ramp = line.width[k] * _smooth_ramp(past / line.width[k])
+            for i in range(3):
+                found[j, i] += line.turn[k, i] * ramp
+    return found
+
+
+@kernel
+def point(line: RoundedPolyline, s: complex, out: Array) -> None:
+    """Write the point (3,) m at parameter s."""
+    out[:] = points(line, np.array([s]))[0]
+
+
+@kernel
+def points_and_tangents(
+    line: RoundedPolyline, parameters: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Points and derivatives by the parameter of a real line at n parameters, each (n, 3) m."""
+    n = parameters.size
+    points, tangents = np.empty((n, 3)), np.empty((n, 3))
+    for j in range(n):
+        s = parameters[j]
+        for i in range(3):
+            points[j, i] = line.start[i] + s * line.tangent[i]
+            tangents[j, i] = line.tangent[i]
+        for k in range(line.corner.size):
+            width = line.width[k]
+            past = s - line.corner[k]
+            if past <= -width:
+                break
+            step, ramp = 1.0, past
+            if past < width:
+                x = past / width
+                step, ramp = _step_within(x).real, width * _ramp_within(x).real
+            for i in range(3):
+                points[j, i] += line.turn[k, i] * ramp
+                tangents[j, i] += line.turn[k, i] * step
+    return points, tangents
 
 
 @kernel

@@ -45,16 +45,6 @@ def _cross(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
 
 
 @kernel
-def _along(line: FloatArray, j: int) -> FloatArray:
-    """Direction of the line at station j: central differences, one-sided at the shoulder.
-
-    Stations crowd at the shoulder like j^2, so that the one-sided difference errs by no more.
-    """
-    v = line[j + 1] - line[max(j - 1, 0)]
-    return v / _length(v)
-
-
-@kernel
 def _carried_beyond(leading: FloatArray, edge: FloatArray, rounding: float) -> FloatArray:
     """Fractions (N, 2) of each element's load that the bones beyond elbow and wrist carry.
 
@@ -69,7 +59,10 @@ def _carried_beyond(leading: FloatArray, edge: FloatArray, rounding: float) -> F
     reached = 0.0
     for j in range(2 * n):
         if j > 0:
-            reached += _length(leading[j] - leading[j - 1])
+            x = leading[j, 0] - leading[j - 1, 0]
+            y = leading[j, 1] - leading[j - 1, 1]
+            z = leading[j, 2] - leading[j - 1, 2]
+            reached += np.sqrt(x * x + y * y + z * z)
         if j % 2 == 0:
             corner = 0.0
             for k in range(2):
@@ -171,20 +164,29 @@ def _assemble(
     published: bool,
 ) -> WingShape:
     n = pairs.leading.shape[0] // 2
-    along = guide.real.copy()
     line = 0.75 * pairs.leading + 0.25 * pairs.trailing
     chord = np.empty(n)
     chord_direction = np.empty((n, 3))
     normal = np.empty((n, 3))
     span = np.empty((n, 3))
+    along = np.empty(3)
     for e in range(n):
-        c = (pairs.trailing[2 * e] - pairs.leading[2 * e]).real
-        chord[e] = _length(c)
-        chord_direction[e] = c / chord[e]
-        _cross(chord_direction[e], _along(along, 2 * e), normal[e])
+        c, up, j = chord_direction[e], normal[e], 2 * e
+        for i in range(3):
+            c[i] = pairs.trailing[j, i].real - pairs.leading[j, i].real
+            # Central differences, one-sided at the shoulder: stations crowd there like j^2, so that
+            # it errs by no more.
+            along[i] = guide[j + 1, i].real - guide[max(j - 1, 0), i].real
+        chord[e], step = _length(c), _length(along)
+        for i in range(3):
+            c[i] /= chord[e]
+            along[i] /= step
+        _cross(c, along, up)
         if not published:
-            normal[e] /= _length(normal[e])
-        _cross(normal[e], chord_direction[e], span[e])
+            size = _length(up)
+            for i in range(3):
+                up[i] /= size
+        _cross(up, c, span[e])
     beyond = _carried_beyond(pairs.leading.real.copy(), edge.real.copy(), rounding)
     velocity = line[0::2].imag / COMPLEX_STEP
     return WingShape(
