@@ -139,7 +139,8 @@ class RigidModel(WingModel):
         """Rates (n,) of the states at time t (s) in state x (n,)."""
         times, states = np.array([t]), np.asarray(x, dtype=float)[None, :]
         table = self._with_odd(self.wing_at(times))
-        return self._along(table, np.zeros(1, np.int64), times, states)[0][0]
+        phase = np.zeros(1, np.int64)
+        return self._along(table, phase, times, states, slopes_wanted=False)[0][0]
 
     def rates(self, times: FloatArray, states: FloatArray) -> FloatArray:
         """Rates (K, n) at `times` (K,) s of `states` (K, n), NaN where these are not finite.
@@ -147,21 +148,30 @@ class RigidModel(WingModel):
         Raises:
             StateError: the wing has no loads, or the motion is beyond floating point.
         """
-        return self._along(*self._table_for(times), times, states)[0]
+        return self._along(*self._table_for(times), times, states, slopes_wanted=False)[0]
 
     def rate_jacobians(self, times: FloatArray, states: FloatArray) -> FloatArray:
         """Derivatives (K, n, n) of the rates, rows, by the states, columns; exact; as `rates`."""
-        return self._along(*self._table_for(times), times, states)[1]
+        return self._along(*self._table_for(times), times, states, slopes_wanted=True)[1]
 
     def _along(
-        self, table: RigidTable, phase: IntArray, times: FloatArray, states: FloatArray
+        self,
+        table: RigidTable,
+        phase: IntArray,
+        times: FloatArray,
+        states: FloatArray,
+        *,
+        slopes_wanted: bool,
     ) -> tuple[FloatArray, FloatArray]:
+        air = self._air(times)
         with overflow_told(self.bird, "the force of the air"):
-            return rates_along(*table, phase, states, self._air(times), *self._constants)
+            return rates_along(*table, phase, states, air, *self._constants, slopes_wanted)
 
     def _air(self, times: FloatArray) -> FloatArray:
         """Velocity (K, 3) m/s of the air along the heading, to its right and down."""
-        return np.insert(self.air_velocities(times), 1, 0.0, axis=1)
+        air = np.zeros((times.size, 3))
+        air[:, [0, 2]] = self.air_velocities(times)
+        return air
 
     def flow(self, x0: npt.ArrayLike, t0: float, t1: float) -> FloatArray:
         """State (n,) at t1 (s) of the flight through x0 (n,) at t0; raises `StateError`."""

@@ -66,10 +66,12 @@ def rigid_rates(
     air: FloatArray,
     frame: Airframe,
     body: RigidBody,
+    slopes_wanted: bool,
 ) -> tuple[FloatArray, FloatArray]:
     """Rates (n,) of the states (n,) at the k-th tabulated phase, and their Jacobian (n, n).
 
-    `air` (3,) m/s is the velocity of the air along the heading, to the right of it and down.
+    `air` (3,) m/s is the velocity of the air along the heading, to the right of it and down. Of the
+    Jacobian the part that the air makes is left out unless `slopes_wanted`.
     """
     x, n = np.zeros(_SIZE), states.size
     for i in range(n):
@@ -79,15 +81,15 @@ def rigid_rates(
     twist = x[:6].copy()
     wx, wy, wz = _times(turn[0], air[0], air[1], air[2])
     twist[0], twist[1], twist[2] = twist[0] - wx, twist[1] - wy, twist[2] - wz
+    directions = body.directions if slopes_wanted else body.directions[:0]
     if body.directions.size == 6:
-        found = free_loads(wing, odd, k, frame, twist, body.directions)
+        found = free_loads(wing, odd, k, frame, twist, directions)
     else:
-        found = symmetric_loads(wing, k, frame, twist, body.directions)
-
+        found = symmetric_loads(wing, k, frame, twist, directions)
     wrench, slopes = found[:, 0].copy(), np.zeros((6, _SIZE))
-    for m in range(body.directions.size):
+    for m in range(directions.size):
         for i in range(6):
-            slopes[i, body.directions[m]] = found[i, m + 1]
+            slopes[i, directions[m]] = found[i, m + 1]
     for a in range(2):
         # As the body turns, the air's velocity turns in its axes.
         wx, wy, wz = _times(turn[a + 1], air[0], air[1], air[2])
@@ -175,17 +177,18 @@ def rates_along(
     air: FloatArray,
     frame: Airframe,
     body: RigidBody,
+    slopes_wanted: bool,
 ) -> tuple[FloatArray, FloatArray]:
     """Rates (K, n) of `states` (K, n) at tabulated phases (K,), and their Jacobians (K, n, n).
 
-    `air` (K, 3) m/s as for `rigid_rates`. NaN where a state is not finite.
+    `air` (K, 3) m/s and `slopes_wanted` as for `rigid_rates`. NaN where a state is not finite.
     """
     count, n = states.shape
     rates, jacobians = np.full((count, n), np.nan), np.full((count, n, n), np.nan)
     for i in range(count):
         if np.isfinite(states[i]).all():
             rates[i], jacobians[i] = rigid_rates(
-                wing, odd, phase[i], states[i], air[i], frame, body
+                wing, odd, phase[i], states[i], air[i], frame, body, slopes_wanted
             )
     return rates, jacobians
 
@@ -213,17 +216,17 @@ def integrate_rigid(
     sensitivity = np.eye(n)
     for i in range(steps):
         k, g = 2 * i, air[2 * i + 1]
-        k1, j1 = rigid_rates(wing, odd, k, x, air[k], frame, body)
+        k1, j1 = rigid_rates(wing, odd, k, x, air[k], frame, body, True)
         s1 = j1 @ sensitivity
-        k2, j2 = rigid_rates(wing, odd, k + 1, x + 0.5 * step * k1, g, frame, body)
+        k2, j2 = rigid_rates(wing, odd, k + 1, x + 0.5 * step * k1, g, frame, body, True)
         s2 = j2 @ (sensitivity + 0.5 * step * s1)
-        k3, j3 = rigid_rates(wing, odd, k + 1, x + 0.5 * step * k2, g, frame, body)
+        k3, j3 = rigid_rates(wing, odd, k + 1, x + 0.5 * step * k2, g, frame, body, True)
         s3 = j3 @ (sensitivity + 0.5 * step * s2)
-        k4, j4 = rigid_rates(wing, odd, k + 2, x + step * k3, air[k + 2], frame, body)
+        k4, j4 = rigid_rates(wing, odd, k + 2, x + step * k3, air[k + 2], frame, body, True)
         s4 = j4 @ (sensitivity + step * s3)
         x = x + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
         sensitivity = sensitivity + step / 6.0 * (s1 + 2.0 * s2 + 2.0 * s3 + s4)
         rates[i] = k1
         states[i + 1] = x
-    rates[steps], _ = rigid_rates(wing, odd, 2 * steps, x, air[2 * steps], frame, body)
+    rates[steps], _ = rigid_rates(wing, odd, 2 * steps, x, air[2 * steps], frame, body, False)
     return states, rates, sensitivity

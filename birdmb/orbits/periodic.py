@@ -150,6 +150,8 @@ def _groups(factors: FloatArray) -> list[slice]:
         inverses = np.linalg.inv(factors)
     except np.linalg.LinAlgError:
         inverses = np.full_like(factors, np.inf)
+    if _all_in_one(factors, np.asarray(inverses, float)):
+        return [slice(0, len(factors))]
     groups, first = [], 0
     running = backward = np.eye(factors.shape[1])
     with np.errstate(over="ignore", invalid="ignore"):
@@ -160,3 +162,17 @@ def _groups(factors: FloatArray) -> list[slice]:
                 first, longer, back = k, factor, inverse
             running, backward = longer, back
     return [*groups, slice(first, len(factors))]
+
+
+def _all_in_one(factors: FloatArray, inverses: FloatArray) -> bool:
+    """Whether products of all factors, of runs that double in length, are well conditioned."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        while len(factors) > 1:
+            even = len(factors) // 2 * 2
+            rest = factors[even:], inverses[even:]
+            factors = np.concatenate([factors[1:even:2] @ factors[:even:2], rest[0]])
+            inverses = np.concatenate([inverses[:even:2] @ inverses[1:even:2], rest[1]])
+            sizes = [np.sqrt((each * each).sum(axis=(1, 2))) for each in (factors, inverses)]
+            if not (sizes[0] * sizes[1] <= _GROUP_CONDITION).all():
+                return False
+    return True
