@@ -14,7 +14,7 @@ from birdmb._typing import FloatArray
 from birdmb.errors import StateError
 from birdmb.orbits.errors import NotSmoothError
 from birdmb.orbits.iteration import Iteration
-from birdmb.orbits.newton import Damping, Equations, solve
+from birdmb.orbits.newton import SHORTEST_DAMPING, Damping, Equations, solve
 from birdmb.orbits.right_hand_side import RightHandSide
 from birdmb.orbits.trigonometric import differentiation_matrix, resampled
 
@@ -236,6 +236,7 @@ def collocate(
     max_iterations: int,
     most_nodes: int,
     fixed: bool = False,
+    shortest_damping: float = SHORTEST_DAMPING,
     callback: Callable[[Iteration], None] | None = None,
 ) -> Collocated[EquationsT]:
     """Solve the equations on as many nodes as the orbit needs, from the unknowns `u`.
@@ -266,6 +267,7 @@ def collocate(
             max_iterations=max_iterations,
             callback=record,
             first_jacobian=None if first is None else equations.assemble(u, first),
+            shortest_damping=shortest_damping,
         )
         jacobians = equations.latest.jacobians
         if jacobians is None:

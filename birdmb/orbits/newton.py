@@ -23,7 +23,7 @@ Damping = Literal["line-search", "levenberg-marquardt"]
 # Sparse for shooting over many segments, dense for collocation.
 Matrix = sp.csc_array | FloatArray
 
-_SHORTEST_DAMPING = 2.0**-12
+SHORTEST_DAMPING = 2.0**-12
 _SUFFICIENT_DECREASE = 1e-4
 # A Jacobian by differences costs 2 n flows, a trial one: updated steps earn their keep as long as
 # each still takes away two thirds of the residual.
@@ -123,14 +123,16 @@ def solve(
     max_iterations: int,
     callback: Callable[[Iteration], None] | None = None,
     first_jacobian: Matrix | None = None,
+    shortest_damping: float = SHORTEST_DAMPING,
 ) -> tuple[FloatArray, FloatArray, tuple[Iteration, ...]]:
     """Solve equations(u) = 0 from u.
 
-    Line search: by halving, on the Euclidean norm. Where Jacobians are dear, a step with the
-    last one, updated from the steps since (Broyden 1965), is tried first and kept only if it cuts
-    the residual to a third; `first_jacobian` (N, N), of a neighbouring solution for instance, is
-    what the first such step takes. Levenberg-Marquardt: the parameter is a factor times the
-    residual norm (Fan & Yuan 2005), the factor adapted by success; it takes no `first_jacobian`.
+    Line search: by halving, down to `shortest_damping`, on the Euclidean norm. Where Jacobians are
+    dear, a step with the last one, updated from the steps since (Broyden 1965), is tried first and
+    kept only if it cuts the residual to a third; `first_jacobian` (N, N), of a neighbouring
+    solution for instance, is what the first such step takes. Levenberg-Marquardt: the parameter is
+    a factor times the residual norm (Fan & Yuan 2005), the factor adapted by success; it takes no
+    `first_jacobian`.
 
     Returns:
         The solution, its residual (norm at most `tolerance`) and the iterations.
@@ -146,7 +148,7 @@ def solve(
     point = _Point(u, equations.residual(u))
     stepper: _Newton | _LevenbergMarquardt = _LevenbergMarquardt(equations)
     if damping == "line-search":
-        stepper = _Newton(equations, first_jacobian)
+        stepper = _Newton(equations, first_jacobian, shortest_damping)
     history: list[Iteration] = []
 
     def record(number: int, length: float, damping: float, reused: bool) -> None:
@@ -213,8 +215,10 @@ def _try(equations: Equations, u: FloatArray, below: float) -> _Point | None:
 
 
 class _Newton:
-    def __init__(self, equations: Equations, first_jacobian: Matrix | None) -> None:
-        self._equations = equations
+    def __init__(
+        self, equations: Equations, first_jacobian: Matrix | None, shortest_damping: float
+    ) -> None:
+        self._equations, self._shortest = equations, shortest_damping
         self._broyden: _Broyden | None = None
         if first_jacobian is not None and equations.dear_jacobian:
             # One that is singular says nothing about the equations at hand.
@@ -233,7 +237,7 @@ class _Newton:
         solved, condition = factorise(self._equations.jacobian(point.u))
         direction = -solved(point.residual)
         damping = 1.0
-        while damping >= _SHORTEST_DAMPING:
+        while damping >= self._shortest:
             below = (1 - _SUFFICIENT_DECREASE * damping) * point.norm
             trial = _try(self._equations, point.u + damping * direction, below)
             if trial is not None:

@@ -31,6 +31,8 @@ LARGEST_PITCH = 6.0
 _ROLL_BOUNDS = (-30.0, 30.0)
 # Of the states, in units of their scale: the multipliers are then known to some 1e-7.
 _ACCURACY = 3e-5
+# Of orbit and climb rate (m/s): no closer than the nodes leave them.
+_CLOSURE, _LEVEL = 1e-6, 1e-5
 _OPENING_STEP = 2.5
 
 
@@ -74,7 +76,8 @@ def tail_study(
         workers=workers,
         executor=executor,
         model=model,
-        trim=Trimming({ROLL: _ROLL_BOUNDS}),
+        trim=Trimming({ROLL: _ROLL_BOUNDS}, tolerance=_LEVEL),
+        tolerance=_CLOSURE,
         accuracy=_ACCURACY,
         on_point=on_point,
     )

@@ -23,7 +23,7 @@ from birdmb.orbits.collocation import (
 from birdmb.orbits.right_hand_side import RightHandSide
 from birdmb.orbits.trigonometric import resampled
 from birdmb.studies.cycles import KeptModels
-from birdmb.studies.trim_equations import ITERATIONS, give_up_creeping
+from birdmb.studies.trim_equations import ITERATIONS, LEAST_DAMPING
 
 _STEP = 1e-6  # of the distance between the bounds
 _MOST_NODES = 129
@@ -213,7 +213,7 @@ def solve_collocated(
         accuracy=accuracy,
         max_iterations=ITERATIONS,
         most_nodes=_MOST_NODES,
-        callback=give_up_creeping,
+        shortest_damping=LEAST_DAMPING,
     )
     states, point = trimmed.equations.unpack(trimmed.u)
     finer_states, finer_point = trimmed.finer.unpack(trimmed.finer_u)

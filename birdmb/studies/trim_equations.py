@@ -12,16 +12,15 @@ import numpy as np
 import scipy.sparse as sp
 
 from birdmb._typing import FloatArray
-from birdmb.errors import OrbitError, StateError
+from birdmb.errors import StateError
 from birdmb.models.flight_cycle import world_velocity
 from birdmb.models.wing_model import WingModel
-from birdmb.orbits.iteration import Iteration
 from birdmb.orbits.newton import solve
 from birdmb.studies.cycles import KeptModels
 
 _TOLERANCE = 1e-10  # below what cycles are searched to, so that theirs is met at once
 ITERATIONS = 12
-_LEAST_DAMPING = 1 / 16  # a search that creeps seldom arrives, and takes long
+LEAST_DAMPING = 1 / 16  # a search that creeps seldom arrives, and takes long
 _STEP = 1e-6  # of the state scale and of the distance between the bounds
 
 
@@ -64,7 +63,7 @@ class TrimEquations:
             damping="line-search",
             tolerance=_TOLERANCE,
             max_iterations=ITERATIONS,
-            callback=give_up_creeping,
+            shortest_damping=LEAST_DAMPING,
         )
         point, x0, _ = self._unpacked(u)
         return point, x0
@@ -109,11 +108,3 @@ class TrimEquations:
         point = self._low + u[n:] * self._width
         model = self._model_at(point)
         return point, u[:n] * model.state_scale, model
-
-
-def give_up_creeping(step: Iteration) -> None:
-    """Raise `OrbitError` where steps are shortened much."""
-    if step.damping < _LEAST_DAMPING:
-        raise OrbitError(
-            f"the search creeps after {step.number} steps, at a residual of {step.residual:.3g}."
-        )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterable, Mapping
+from functools import cached_property
 from itertools import pairwise
 from typing import Any, Self
 
@@ -12,7 +13,7 @@ from pydantic import Field, field_validator, model_validator
 
 from birdmb.errors import TopologyError
 from birdmb.topology.airframe import Drag, Tail
-from birdmb.topology.messages import nearest, problem, shown, validated
+from birdmb.topology.messages import Location, nearest, problem, shown, validated
 from birdmb.topology.names import Label
 from birdmb.topology.numbers import Gravity
 from birdmb.topology.parts import (
@@ -168,9 +169,14 @@ class Bird(Part):
 
         return tuple(own.get(joint.name, default(joint)) for joint in self.joints)
 
+    # Studies vary one bird many thousand times; finding its names takes as long as all the rest.
+    @cached_property
+    def _places(self) -> dict[str, Location]:
+        return named_places(self)
+
     def value_names(self) -> tuple[str, ...]:
         """Return every dotted name that `value`, `with_values` and `--set` understand."""
-        return tuple(named_places(self))
+        return tuple(self._places)
 
     def value(self, name: str) -> Any:
         """Return the value of a dotted name such as `"wing.root.x"` or `"forearm.roll.offset_deg"`.
@@ -178,7 +184,7 @@ class Bird(Part):
         In SI units and rad, or in degrees where the name ends in `_deg`. Raises `TopologyError` for
         an unknown name.
         """
-        place = place_of(name, named_places(self), self.name)
+        place = place_of(name, self._places, self.name)
         return value_at(self._document(resolved=is_resolution(name)), place)
 
     def with_values(self, values: Mapping[str, Any]) -> Bird:
@@ -190,7 +196,7 @@ class Bird(Part):
         """
         # Defaults are left out where they must follow a change, as the mid-bone follows the length.
         document = self._document(resolved=any(map(is_resolution, values)), exclude_unset=True)
-        put_values(document, values, named_places(self), self.name)
+        put_values(document, values, self._places, self.name)
         changed = ", ".join(f"{name} = {shown(value)}" for name, value in values.items())
         return validated(type(self), document, f"{self.name} (with {changed})")
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import lru_cache
 from types import MappingProxyType
 from typing import Annotated, Any, ClassVar, Literal, Self
 
@@ -272,6 +273,8 @@ def _moments(value: Any) -> dict[str, Any]:
     }
 
 
+# Of birds that are varied by the thousand, the same few tensors are checked again and again.
+@lru_cache(maxsize=64)
 def _possible_inertia(inertia: Tensor) -> Tensor:
     tensor = np.array(inertia)
     round_off = _ROUND_OFF * np.abs(tensor).max()

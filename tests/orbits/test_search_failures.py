@@ -16,6 +16,7 @@ from birdmb.orbits import (
     SingularJacobianError,
     find_limit_cycle,
 )
+from birdmb.orbits.newton import solve
 
 
 class Map:
@@ -172,3 +173,34 @@ def test_trajectory_dataset_and_figure():
     assert data.attrs["stability"] == "stable"
     figure = cycle.plot()
     assert [axes.get_ylabel() for axes in figure.axes] == ["x", "v", "Im Λ"]
+
+
+class Arctangent:
+    """arctan(x) = 0, from which full Newton steps lead away beyond |x| = 1.39."""
+
+    dear_jacobian = False
+
+    def residual(self, u):
+        return np.arctan(u)
+
+    def jacobian(self, u):
+        return np.diag(1 / (1 + u**2))
+
+    def start_and_period(self, u):
+        return u, 1.0
+
+    def closure(self, residual):
+        return float(np.abs(residual).max())
+
+
+@pytest.mark.parametrize(("shortest", "found"), [(1 / 16, True), (1 / 8, True), (1 / 4, False)])
+def test_a_line_search_ends_at_its_shortest_step(shortest, found):
+    """From 8 a quarter of the full step leads to -15.5, too far; an eighth to -3.75."""
+    options = {"damping": "line-search", "tolerance": 1e-12, "max_iterations": 20}
+    start = np.array([8.0])
+    if found:
+        solution = solve(Arctangent(), start, shortest_damping=shortest, **options)[0]
+        assert solution == pytest.approx([0.0], abs=1e-12)
+    else:
+        with pytest.raises(ConvergenceError, match="no step along the search direction"):
+            solve(Arctangent(), start, shortest_damping=shortest, **options)
