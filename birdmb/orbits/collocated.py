@@ -28,6 +28,7 @@ _MOST_INSTANTS = 1025
 class _Linearised:
     equations: CollocationEquations
     u: FloatArray
+    rate_jacobians: FloatArray
     factors: FloatArray
     spectrum: Spectrum
 
@@ -55,20 +56,24 @@ def linearise_collocated(
         The fields of a `LimitCycle` but for its search, by name.
     """
     at = _linearised(found.equations, found.u, rate_jacobians)
-    finer = _linearised(found.finer, found.finer_u)
+    # Of the finest one only the multipliers count, not their errors.
+    finer = _linearised(found.finer, found.finer_u, with_errors=False)
     errors = _errors(at.spectrum, finer.spectrum)
     good = _GOOD_PER_ACCURACY * accuracy
     while not _relative(at.spectrum, errors) <= good:
         if more_nodes(finer.equations.nodes) > _MOST_INSTANTS:
             break
-        finest = _linearised(*_on_more(finer))
+        finest = _linearised(*_on_more(finer), with_errors=False)
+        finer = _linearised(finer.equations, finer.u, finer.rate_jacobians)
         better = _errors(finer.spectrum, finest.spectrum)
         if not _relative(finer.spectrum, better) < _FALLING * _relative(at.spectrum, errors):
             break
         at, finer, errors = finer, finest, better
     if at.equations is not found.equations:
         # Of one orbit at different instants, its own error does not show.
-        rough = _linearised(*found.equations.on_nodes(at.equations.nodes, found.u))
+        rough = _linearised(
+            *found.equations.on_nodes(at.equations.nodes, found.u), with_errors=False
+        )
         errors = errors + paired_distances(at.spectrum.multipliers, rough.spectrum.multipliers)
     equations, spectrum = at.equations, at.spectrum
     points, period = equations.unpack(at.u)
@@ -100,21 +105,26 @@ def linearise_collocated(
 
 
 def _linearised(
-    equations: CollocationEquations, u: FloatArray, jacobians: FloatArray | None = None
+    equations: CollocationEquations,
+    u: FloatArray,
+    jacobians: FloatArray | None = None,
+    *,
+    with_errors: bool = True,
 ) -> _Linearised:
     points, period = equations.unpack(u)
     if jacobians is None:
         jacobians = equations.rate_jacobians(u)
-    times, rhs = equations.times(period), equations.rhs
-    errors = rhs.jacobian_errors(times, points, jacobians)
+    rhs = equations.rhs
     factors, factor_errors = flow_jacobians(period * jacobians)
-    # To first order an error of the derivative acts for the length of an interval.
-    size = np.maximum(np.abs(factors), np.eye(len(rhs.scale)))
-    step = period / equations.nodes
-    factor_errors = factor_errors + step * 0.5 * (size @ errors + errors @ size)
+    if with_errors:
+        errors = rhs.jacobian_errors(equations.times(period), points, jacobians)
+        # To first order an error of the derivative acts for the length of an interval.
+        size = np.maximum(np.abs(factors), np.eye(len(rhs.scale)))
+        step = period / equations.nodes
+        factor_errors = factor_errors + step * 0.5 * (size @ errors + errors @ size)
     units = np.divide.outer(rhs.scale, rhs.scale)
     spectrum = periodic_multipliers(factors * units, factor_errors * units, rhs.scale)
-    return _Linearised(equations, u, factors * units, spectrum)
+    return _Linearised(equations, u, jacobians, factors * units, spectrum)
 
 
 def _on_more(at: _Linearised) -> tuple[CollocationEquations, FloatArray]:

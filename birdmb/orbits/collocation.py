@@ -28,6 +28,8 @@ _SLOWEST_DECAY = 0.5
 _RUNGS_TO_JUDGE = 4
 # A corrected solution is better, not exact.
 _ERROR_PER_CORRECTION = 2.0
+# Of the error that the nodes leave: a residual below it decides nothing on more nodes.
+_PART_OF_ERROR = 0.1
 # Round-off of the residual, in units of machine precision times its largest term.
 _NOISE = 100.0
 
@@ -252,33 +254,55 @@ def collocate(
     history: list[Iteration] = []
     errors: list[float] = []
     first: FloatArray | None = None
+    roughly = not fixed
 
     def record(iteration: Iteration) -> None:
         history.append(replace(iteration, number=len(history), nodes=equations.nodes))
         if callback is not None:
             callback(history[-1])
 
+    def enough(u: FloatArray) -> float:
+        """More nodes will be needed: what these leave of error is not worth a smaller residual."""
+        left = _tail(u, equations.nodes)
+        return _PART_OF_ERROR * left if roughly and left > accuracy else 0.0
+
     while True:
+        goal = max(tolerance, equations.round_off(u))
         u, residual, _ = solve(
             equations,
             u,
             damping=damping,
-            tolerance=max(tolerance, equations.round_off(u)),
+            tolerance=goal,
             max_iterations=max_iterations,
             callback=record,
             first_jacobian=None if first is None else equations.assemble(u, first),
             shortest_damping=shortest_damping,
+            enough=enough,
         )
         jacobians = equations.latest.jacobians
         if jacobians is None:
             jacobians = equations.rate_jacobians(u) if first is None else first
         finer, finer_u, error = _correction(equations, u, jacobians)
         if fixed or error <= accuracy:
-            return Collocated(equations, u, residual, finer, finer_u, error, tuple(history))
+            if not roughly or np.linalg.norm(residual) <= goal:
+                return Collocated(equations, u, residual, finer, finer_u, error, tuple(history))
+            roughly, first = False, jacobians
+            continue
+        roughly = True
         errors.append(error)
         _refuse_rough(equations, u, errors, accuracy, most_nodes, history)
         first = resampled(jacobians, finer.nodes)
         equations, u = finer, finer_u
+
+
+def _tail(u: FloatArray, nodes: int) -> float:
+    """Largest amplitude of the states' two highest harmonics, in units of their scale.
+
+    About what the nodes leave of error. The states come first among the unknowns.
+    """
+    states = u[: u.size // nodes * nodes].reshape(nodes, -1)
+    angles = 2.0 * np.pi / nodes * np.outer((nodes // 2, nodes // 2 - 1), np.arange(nodes))
+    return float(np.abs(np.exp(1j * angles) @ states).max()) * 2.0 / nodes
 
 
 def _correction(

@@ -124,6 +124,7 @@ def solve(
     callback: Callable[[Iteration], None] | None = None,
     first_jacobian: Matrix | None = None,
     shortest_damping: float = SHORTEST_DAMPING,
+    enough: Callable[[FloatArray], float] = lambda _: 0.0,
 ) -> tuple[FloatArray, FloatArray, tuple[Iteration, ...]]:
     """Solve equations(u) = 0 from u.
 
@@ -135,7 +136,8 @@ def solve(
     `first_jacobian`.
 
     Returns:
-        The solution, its residual (norm at most `tolerance`) and the iterations.
+        The solution, its residual (norm at most `tolerance`, or what is `enough` at the solution)
+        and the iterations.
 
     Raises:
         StateError: the residual is not defined at the guess.
@@ -171,7 +173,7 @@ def solve(
         )
 
     record(0, 0.0, 1.0, False)
-    while history[-1].residual > tolerance:
+    while history[-1].residual > max(tolerance, enough(point.u)):
         if len(history) > max_iterations:
             raise failure(
                 ConvergenceError,
