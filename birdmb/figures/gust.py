@@ -22,7 +22,7 @@ def plot_gust_response(data: xr.Dataset) -> Figure:
     figure = Figure(figsize=(10, 7.5), layout="constrained")
     rows = figure.subplots(3, 2, sharex=True, height_ratios=(0.8, 1, 1))
     time = data["time"].values
-    for name, colour in (("forward", "0.6"), ("up", "0.2")):
+    for name, colour in (("forward", "0.6"), ("up", "0.2"), ("right", "tab:blue")):
         wind = data["gust"].sel(direction=name)
         if wind.values.any():
             rows[0, 0].plot(time, wind, color=colour, label=name)

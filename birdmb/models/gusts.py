@@ -2,17 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
 
-Gust: TypeAlias = Callable[[float], tuple[float, float]]
-"""Velocity of the air (m/s) at a time (s): horizontal (forwards positive, a tail wind), upwards.
+from birdmb._typing import FloatArray
+from birdmb.errors import ArgumentError
 
-One with steps or kinks names their times (s) as its attribute `breaks`.
+Gust: TypeAlias = Callable[[float], Sequence[float]]
+"""Velocity of the air (m/s) at a time (s): forwards (a tail wind), upwards, perhaps to the right.
+
+Seen along the bird's heading, which to first order in the gust is that before it. One with steps or
+kinks names their times (s) as its attribute `breaks`.
 """
+
+
+def velocity_of(gust: Gust, t: float) -> FloatArray:
+    """Velocity (3,) m/s of the air at t (s): forwards, to the right and down.
+
+    Raises:
+        ArgumentError: the gust gives neither two nor three velocities.
+    """
+    given = np.asarray(gust(t), dtype=float)
+    if given.shape not in {(2,), (3,)}:
+        raise ArgumentError(
+            "a gust must return two or three velocities, in m/s: forwards, upwards, and to the "
+            "right."
+        )
+    return np.array([given[0], given[2] if given.size == 3 else 0.0, -given[1]])
 
 
 @dataclass(frozen=True)
@@ -24,17 +43,19 @@ class GaussianGust:
         horizontal: largest forwards velocity, m/s.
         time: when it is strongest, s; as in the thesis, chapter 6.
         width: standard deviation, s.
+        lateral: largest velocity to the right, m/s; in the plane of symmetry there is none.
     """
 
     vertical: float = 0.0
     horizontal: float = 0.0
     time: float = 0.25
     width: float = 0.05
+    lateral: float = 0.0
 
-    def __call__(self, t: float) -> tuple[float, float]:
-        """Velocity (m/s) at t (s), forwards and upwards."""
+    def __call__(self, t: float) -> tuple[float, float, float]:
+        """Velocity (m/s) at t (s), forwards, upwards and to the right."""
         part = float(np.exp(-0.5 * ((t - self.time) / self.width) ** 2))
-        return self.horizontal * part, self.vertical * part
+        return self.horizontal * part, self.vertical * part, self.lateral * part
 
 
 @dataclass(frozen=True)
@@ -46,23 +67,25 @@ class CosineGust:
         horizontal: largest forwards velocity, m/s.
         start: when it begins, s.
         duration: how long it lasts, s.
+        lateral: largest velocity to the right, m/s; in the plane of symmetry there is none.
     """
 
     vertical: float = 0.0
     horizontal: float = 0.0
     start: float = 0.0
     duration: float = 0.25
+    lateral: float = 0.0
 
     @property
     def breaks(self) -> tuple[float, ...]:
         """Times (s) of its beginning and end, where its curvature jumps."""
         return self.start, self.start + self.duration
 
-    def __call__(self, t: float) -> tuple[float, float]:
-        """Velocity (m/s) at t (s), forwards and upwards."""
+    def __call__(self, t: float) -> tuple[float, float, float]:
+        """Velocity (m/s) at t (s), forwards, upwards and to the right."""
         phase = (t - self.start) / self.duration
         part = 0.5 * (1.0 - float(np.cos(2.0 * np.pi * phase))) if 0.0 < phase < 1.0 else 0.0
-        return self.horizontal * part, self.vertical * part
+        return self.horizontal * part, self.vertical * part, self.lateral * part
 
 
 @dataclass(frozen=True)
@@ -73,18 +96,20 @@ class StepGust:
         vertical: upwards velocity from then on, m/s.
         horizontal: forwards velocity from then on, m/s.
         start: when it begins, s.
+        lateral: velocity to the right from then on, m/s; in the plane of symmetry there is none.
     """
 
     vertical: float = 0.0
     horizontal: float = 0.0
     start: float = 0.0
+    lateral: float = 0.0
 
     @property
     def breaks(self) -> tuple[float, ...]:
         """Time (s) of the step."""
         return (self.start,)
 
-    def __call__(self, t: float) -> tuple[float, float]:
-        """Velocity (m/s) at t (s), forwards and upwards."""
+    def __call__(self, t: float) -> tuple[float, float, float]:
+        """Velocity (m/s) at t (s), forwards, upwards and to the right."""
         part = 1.0 if t >= self.start else 0.0
-        return self.horizontal * part, self.vertical * part
+        return self.horizontal * part, self.vertical * part, self.lateral * part

@@ -101,13 +101,13 @@ def heading_rate(space: FloatArray) -> FloatArray:
 
 
 def along_body(space: FloatArray, air: FloatArray) -> FloatArray:
-    """Components (K, 3) along the body's axes of `air` (K, 3) m/s, forward, right and upwards.
+    """Components (K, 3) along the body's axes of `air` (K, 3) m/s, forwards, right and down.
 
     In the attitude of states in space (K, 8).
     """
     phi, theta = space[:, [6, 7]].T
     c, s, cr, sr = np.cos(theta), np.sin(theta), np.cos(phi), np.sin(phi)
-    forward, right, down = air[:, 0], air[:, 1], -air[:, 2]
+    forward, right, down = air.T
     across = forward * s + down * c
     return np.column_stack(
         [forward * c - down * s, right * cr + across * sr, across * cr - right * sr]

@@ -163,15 +163,9 @@ class RigidModel(WingModel):
         *,
         slopes_wanted: bool,
     ) -> tuple[FloatArray, FloatArray]:
-        air = self._air(times)
+        air = self.air_velocities(times)
         with overflow_told(self.bird, "the force of the air"):
             return rates_along(*table, phase, states, air, *self._constants, slopes_wanted)
-
-    def _air(self, times: FloatArray) -> FloatArray:
-        """Velocity (K, 3) m/s of the air along the heading, to its right and down."""
-        air = np.zeros((times.size, 3))
-        air[:, [0, 2]] = self.air_velocities(times)
-        return air
 
     def flow(self, x0: npt.ArrayLike, t0: float, t1: float) -> FloatArray:
         """State (n,) at t1 (s) of the flight through x0 (n,) at t0; raises `StateError`."""
@@ -244,7 +238,7 @@ class RigidModel(WingModel):
         refuse_runaway(self.bird, self.state_names, start, self.state_scale, t0)
         table, gusts = (
             self._table(t0 % self.bird.period, t1 - t0, steps),
-            self._air(np.linspace(t0, t1, 2 * steps + 1)),
+            self.air_velocities(np.linspace(t0, t1, 2 * steps + 1)),
         )
         with overflow_told(self.bird, f"the flight from t = {t0:.4g} to {t1:.4g} s"):
             found = integrate_rigid(*table, start, (t1 - t0) / steps, gusts, *self._constants)

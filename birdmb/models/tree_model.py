@@ -187,7 +187,7 @@ class TreeModel(WingModel):
         body = np.empty((len(states), len(BODY_STATES)))
         body[:] = states[:, :4] if self._body_states else self.body_state(states[0])
         angles, rates = self.joint_motion_along(times, states)
-        motion = Motion(body, angles, rates, self.air_velocities(times))
+        motion = Motion(body, angles, rates, self.air_velocities(times)[:, [0, 2]])
         a = self._tree.accelerations(times, motion)
         found = np.empty(states.shape)
         if self._body_states:
@@ -329,6 +329,7 @@ class TreeModel(WingModel):
     def _forces(self, t: float, q: FloatArray, v: FloatArray) -> FloatArray:
         """Generalised forces (n,) of air, springs and dampers: Exudyn's user function."""
         instant = self.instant(t)
+        forward, _, down = self.air_velocities(np.array([t]))[0]
         with overflow_told(self.bird, f"the force of the air at t = {t:.4g} s"):
             forces, clearance = tree_forces(
                 self.wing,
@@ -340,7 +341,7 @@ class TreeModel(WingModel):
                 instant.rates,
                 q,
                 v,
-                self.air_velocity(t),
+                (float(forward), float(down)),
             )
         if not clearance >= 0.0:
             raise wing_misplaced(self.bird, t, q[self._right_wing], clearance)

@@ -13,10 +13,10 @@ from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.airframe import airframe
 from birdmb.aerodynamics.elements import place_elements
 from birdmb.aerodynamics.prescribed import driven_at
-from birdmb.errors import StateError
+from birdmb.errors import ArgumentError, StateError
 from birdmb.models.failures import lifting_line_lost, overflow_told, wing_misplaced
 from birdmb.models.flight import Flight
-from birdmb.models.gusts import Gust
+from birdmb.models.gusts import Gust, velocity_of
 from birdmb.models.loads import Loads, LoadsAlong
 from birdmb.models.loads_kernel import loads_along
 from birdmb.models.motion import PLANAR, Motion, along_body
@@ -81,18 +81,18 @@ class WingModel(ABC):
     def flow(self, x0: npt.ArrayLike, t0: float, t1: float) -> FloatArray:
         """State (n,) at t1 (s) of the flight through x0 (n,) at t0; raises `StateError`."""
 
-    def air_velocity(self, t: float) -> tuple[float, float]:
-        """Velocity (m/s) of the air in the world at t (s), along X (forward) and Z (down)."""
-        if self._gust is None:
-            return 0.0, 0.0
-        horizontal, upwards = self._gust(t)
-        return float(horizontal), -float(upwards)
-
     def air_velocities(self, times: FloatArray) -> FloatArray:
-        """Velocities (K, 2) m/s of the air in the world at `times` (K,) s, as `air_velocity`."""
+        """Velocities (K, 3) m/s of the air at `times` (K,) s: forwards, to the right and down.
+
+        Raises:
+            ArgumentError: it moves sideways, and the body does not.
+        """
         if self._gust is None:
-            return np.zeros((times.size, 2))
-        return np.array([self.air_velocity(t) for t in times.tolist()])
+            return np.zeros((times.size, 3))
+        found = np.array([velocity_of(self._gust, t) for t in times.tolist()]).reshape(-1, 3)
+        if not self.motion.lateral.any() and found[:, 1].any():
+            raise ArgumentError('a side gust needs a model that moves in space (motion="free").')
+        return found
 
     @abstractmethod
     def trajectory(
@@ -205,9 +205,8 @@ class WingModel(ABC):
     def _twist_through_air(self, times: FloatArray, states: FloatArray) -> FloatArray:
         """Twist (K, 6) of the body relative to the air, m/s and rad/s."""
         space = self.body_in_space(states)
-        forward, down = self.air_velocities(times).T
-        air = np.column_stack([forward, np.zeros(times.size), -down])
-        return np.hstack([space[:, :3] - along_body(space, air), space[:, 3:6]])
+        air = along_body(space, self.air_velocities(times))
+        return np.hstack([space[:, :3] - air, space[:, 3:6]])
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle as the call that makes the model: compiled tables are made again where needed."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import cast
@@ -15,6 +15,7 @@ from scipy.interpolate import CubicSpline
 from birdmb._typing import FloatArray, IntArray
 from birdmb.errors import ArgumentError, StateError
 from birdmb.models import FlightCycle, Gust, MultibodyModel, RigidModel
+from birdmb.models.gusts import velocity_of
 from birdmb.orbits.multipliers import Spectrum
 from birdmb.orbits.periodic import periodic_multipliers
 from birdmb.studies.perturbed import flight_path
@@ -40,16 +41,17 @@ def gust_response(
 
     Args:
         cycle: limit cycle of a bird, stable or not.
-        gust: velocity of the air (m/s, forwards and upwards) at a time (s): `GaussianGust`,
-            `CosineGust`, `StepGust`, or any function; times at which it or its slopes jump are
-            looked for in its attribute `breaks`.
+        gust: velocity of the air (m/s, forwards, upwards and, of a bird in space, to the right)
+            at a time (s): `GaussianGust`, `CosineGust`, `StepGust`, or any function; times at which
+            it or its slopes jump are looked for in its attribute `breaks`.
         periods: beats to follow it, from the cycle's start time on.
         samples: times per beat.
 
     Returns:
         By `time` (s): `states` by the full model (by `state`), the undisturbed `orbit`, their
         difference `deviation`, the `linear` deviation, `gust` (m/s, by `direction`: "forward",
-        "up"), path `X` and height `h` (m) with and (`orbit_X`, `orbit_h`) without the gust; by
+        "up", "right"), path `X` and height `h` (m) with and (`orbit_X`, `orbit_h`) without the
+        gust, and `Y` to the right where the bird moves in space; by
         `mode` the part of each in the linear deviation, `mode_deviation` (a conjugate pair is one
         mode), with `multiplier_real` and `multiplier_imag`. `attrs["failure"]` says why the full
         model ended early, its states then being NaN; it is empty if it did not.
@@ -59,10 +61,10 @@ def gust_response(
     """
     if periods < 1 or samples < 1:
         raise ArgumentError("periods and samples must be at least 1.")
-    if np.shape(gust(cycle.start_time)) != (2,):
-        raise ArgumentError("a gust must return two velocities: forwards and upwards, in m/s.")
+    motion = cycle.bird_model.motion
     beats = np.arange(periods * samples + 1) / samples
     times: FloatArray = cycle.start_time + cycle.period * beats
+    wind = np.array([velocity_of(gust, float(t)) for t in times])
     orbit = cycle.trajectory(times).states
     states, failure = _flown(cycle, gust, times)
     linearised = _linearise(cycle)
@@ -70,10 +72,11 @@ def gust_response(
     spectrum = _modes_over_a_beat(cycle, linearised, samples)
     kept, parts = _by_mode(spectrum, linear, samples)
     reached = np.isfinite(states).all(axis=1)
-    path = np.full((times.size, 2), np.nan)
-    path[reached] = flight_path(times[reached], states[reached])
-    orbit_path = flight_path(times, orbit)
+    orbit_path = flight_path(times, orbit, motion)
+    path = np.full(orbit_path.shape, np.nan)
+    path[reached] = flight_path(times[reached], states[reached], motion)
     metres = {"units": "m"}
+    sideways = {"Y": ("time", path[:, 2], metres)} if motion.lateral.any() else {}
     return xr.Dataset(
         {
             "states": (("time", "state"), states),
@@ -83,21 +86,18 @@ def gust_response(
             "mode_deviation": (("mode", "time", "state"), parts),
             "multiplier_real": ("mode", spectrum.multipliers[kept].real),
             "multiplier_imag": ("mode", spectrum.multipliers[kept].imag),
-            "gust": (
-                ("time", "direction"),
-                np.array([gust(float(t)) for t in times], dtype=float),
-                {"units": "m/s"},
-            ),
+            "gust": (("time", "direction"), wind * [1.0, 1.0, -1.0], {"units": "m/s"}),
             "X": ("time", path[:, 0], metres),
             "h": ("time", path[:, 1], metres),
             "orbit_X": ("time", orbit_path[:, 0], metres),
             "orbit_h": ("time", orbit_path[:, 1], metres),
+            **sideways,
         },
         coords={
             "time": ("time", times, {"units": "s"}),
             "state": list(cycle.state_names),
             "mode": kept,
-            "direction": ["forward", "up"],
+            "direction": ["forward", "right", "up"],
         },
         attrs={
             "bird": cast(_Bird, cycle.model).bird.name,
@@ -114,7 +114,7 @@ class _Window:
         self._gust = gust
         self.first = self.last = 0.0
 
-    def __call__(self, t: float) -> tuple[float, float]:
+    def __call__(self, t: float) -> Sequence[float]:
         margin = 1e-9 * (self.last - self.first)
         return self._gust(min(max(t, self.first + margin), self.last - margin))
 
@@ -151,7 +151,11 @@ class _Linearised:
     by_state: Callable[[float], FloatArray]
     """(n, n) 1/s, A(t)."""
     by_gust: Callable[[float], FloatArray]
-    """(n, 2), B(t): by the air's velocity forwards and upwards."""
+    """(n, 3), B(t): by the air's velocity forwards, to the right and down."""
+
+    def rates(self, t: float, y: FloatArray, wind: FloatArray) -> FloatArray:
+        """Rates (n,) of a deviation (n,) in a wind (3,) m/s."""
+        return np.asarray(self.by_state(t) @ y + self.by_gust(t) @ wind)
 
 
 def _linearise(cycle: FlightCycle) -> _Linearised:
@@ -159,14 +163,14 @@ def _linearise(cycle: FlightCycle) -> _Linearised:
     phases = np.linspace(0.0, cycle.period, _PHASES_PER_STEP * model.steps_per_beat + 1)
     times = cycle.start_time + phases
     n, steps = len(cycle.x0), _STEP * cycle.state_scale
-    blown = [
-        (model.in_gust(_Steady(h, 0.0)), model.in_gust(_Steady(0.0, h))) for h in (_STEP, -_STEP)
-    ]
-    a, b = np.empty((phases.size, n, n)), np.empty((phases.size, n, 2))
+    # In the plane of symmetry no air moves sideways.
+    felt = (0, 1, 2) if model.motion.lateral.any() else (0, 2)
+    blown = {i: [model.in_gust(_Steady(i, h)) for h in (_STEP, -_STEP)] for i in felt}
+    a, b = np.empty((phases.size, n, n)), np.zeros((phases.size, n, 3))
     for k, (t, x) in enumerate(zip(times, cycle.trajectory(times).states, strict=True)):
         for i, h in enumerate(np.diag(steps)):
             a[k, :, i] = (model.rhs(t, x + h) - model.rhs(t, x - h)) / (2.0 * steps[i])
-        for i, (ahead, behind) in enumerate(zip(*blown, strict=True)):
+        for i, (ahead, behind) in blown.items():
             b[k, :, i] = (ahead.rhs(t, x) - behind.rhs(t, x)) / (2.0 * _STEP)
 
     def periodic(values: FloatArray) -> Callable[[float], FloatArray]:
@@ -179,11 +183,14 @@ def _linearise(cycle: FlightCycle) -> _Linearised:
 
 @dataclass(frozen=True)
 class _Steady:
-    horizontal: float
-    upwards: float
+    """Air that moves along one of the directions forwards, right and down."""
 
-    def __call__(self, _t: float) -> tuple[float, float]:
-        return self.horizontal, self.upwards
+    direction: int
+    velocity: float
+
+    def __call__(self, _t: float) -> tuple[float, float, float]:
+        forward, right, down = self.velocity * np.eye(3)[self.direction]
+        return float(forward), -float(down), float(right)
 
 
 def _linear_response(
@@ -197,7 +204,9 @@ def _linear_response(
         window.first, window.last = first, last
         within = (times > first) & (times <= last)
         found = solve_ivp(
-            lambda t, y: linearised.by_state(t) @ y + linearised.by_gust(t) @ window(t),
+            lambda t, y: (
+                linearised.by_state(t) @ y + linearised.by_gust(t) @ velocity_of(window, t)
+            ),
             (first, last),
             y,
             method="Radau",

@@ -8,6 +8,7 @@ from scipy.interpolate import make_interp_spline
 
 from birdmb._typing import FloatArray
 from birdmb.models import FlightCycle
+from birdmb.models.motion import PLANAR, Motion, heading_rate, heading_velocity
 from birdmb.orbits import mode_disturbance, perturbed_response
 
 
@@ -39,6 +40,7 @@ def perturbed_flight(
     Raises:
         ArgumentError: numbers that are not positive.
     """
+    motion = cycle.bird_model.motion
     modes = np.flatnonzero(cycle.multipliers.imag >= 0)
     start, beats = cycle.start_time, np.arange(periods + 1)
     responses = [
@@ -64,8 +66,8 @@ def perturbed_flight(
         reached = len(response.times)
         states[i, :reached] = response.states
         linear[i, : len(response.linear)] = response.linear
-        path[i, :reached] = flight_path(response.times, response.states)
-    orbit_path = flight_path(times, orbit)
+        path[i, :reached] = flight_path(response.times, response.states, motion)[:, :2]
+    orbit_path = flight_path(times, orbit, motion)
     metres = {"units": "m"}
     by_mode = ("mode", "time", "state")
     return xr.Dataset(
@@ -92,16 +94,24 @@ def perturbed_flight(
     )
 
 
-def flight_path(times: FloatArray, states: FloatArray) -> FloatArray:
-    """Path X and height h (K, 2), m, from the first place on, of body states (K, n >= 4).
+def flight_path(times: FloatArray, states: FloatArray, motion: Motion = PLANAR) -> FloatArray:
+    """Path X, height h and, in space, Y to the right, m, from the first place on; (K, 2) or (K, 3).
 
-    X' = u cos(theta) + w sin(theta), h' = u sin(theta) - w cos(theta), integrated by cubic splines:
-    errors of fourth order in the distance of four or more times.
+    X is along the first heading. Of states (K, n), the first of which are the body's in `motion`.
+    Rates are integrated by cubic splines: errors of fourth order in the distance of four or more
+    times.
     """
+    columns = 3 if motion.lateral.any() else 2
     if times.size == 1:  # a flight that failed within its first beat
-        return np.zeros((1, 2))
-    u, w, theta = states[:, 0], states[:, 1], states[:, 3]
-    c, s = np.cos(theta), np.sin(theta)
-    velocity = np.column_stack([u * c + w * s, u * s - w * c])
-    integral = make_interp_spline(times, velocity, k=min(3, times.size - 1)).antiderivative()
-    return np.asarray(integral(times) - integral(times[0]))
+        return np.zeros((1, columns))
+    space = motion.in_space(states)
+
+    def integrated(rates: FloatArray) -> FloatArray:
+        integral = make_interp_spline(times, rates, k=min(3, times.size - 1)).antiderivative()
+        return np.asarray(integral(times) - integral(times[0]))
+
+    forward, right, up = heading_velocity(space).T
+    heading = integrated(heading_rate(space))
+    c, s = np.cos(heading), np.sin(heading)
+    velocity = np.column_stack([forward * c - right * s, up, forward * s + right * c])
+    return integrated(velocity[:, :columns])

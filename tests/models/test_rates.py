@@ -152,13 +152,15 @@ def test_rigid_states_that_are_not_finite_have_no_rates(ibis):
         assert np.isnan(found[1]).all()
 
 
-def test_rates_of_a_body_that_stands_still_in_still_air_are_refused(ibis):
-    """Sections without any wind have no angle of attack; here the wing stands still as well."""
+def test_a_body_that_stands_still_in_still_air_falls_and_has_no_derivatives(ibis):
+    """Sections without any wind have no loads, and no angle of attack: nothing to differentiate."""
     bird = coarse(ibis)
     for joint in bird.joints:
         bird = bird.with_joint(joint.name, amplitude=0.0)
+    model, still = birdmb.RigidModel(bird), (np.zeros(1), np.zeros((1, 4)))
+    assert model.rates(*still)[0] == pytest.approx([0.0, bird.gravity, 0.0, 0.0])
     with pytest.raises(birdmb.StateError, match="cannot be computed"):
-        birdmb.RigidModel(bird).rates(np.zeros(1), np.zeros((1, 4)))
+        model.rate_jacobians(*still)
 
 
 def test_guess_along_of_the_rigid_bird_is_its_mean_trim(ibis):

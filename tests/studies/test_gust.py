@@ -21,7 +21,7 @@ def cycles(ibis_tail):
 
 def test_gusts_have_the_shapes_they_are_named_after():
     gauss = GaussianGust(vertical=2.0)
-    assert gauss(0.25) == pytest.approx((0.0, 2.0))
+    assert gauss(0.25) == pytest.approx((0.0, 2.0, 0.0))
     assert gauss(0.30)[1] == pytest.approx(2.0 * np.exp(-0.5))
     cosine = CosineGust(horizontal=1.0, start=0.1, duration=0.4)
     assert [cosine(t)[0] for t in (0.0, 0.1, 0.2, 0.3, 0.5, 0.6)] == pytest.approx(
@@ -108,10 +108,31 @@ def test_a_flight_that_fails_keeps_what_it_reached(cycles):
     assert np.isfinite(flight.linear).all()
 
 
+def test_a_side_gust_rolls_and_turns_a_bird_in_space(ibis_tail):
+    coarse = ibis_tail.with_values({"wing.discretisation.elements": 8})
+    cycle = birdmb.find_limit_cycle(birdmb.RigidModel(coarse, motion="free"))
+    apart = []
+    for strength in (0.4, 0.2, 0.1):
+        gust = CosineGust(lateral=strength)
+        flight = birdmb.gust_response(cycle, gust, periods=2, samples=20)
+        apart.append(float(np.abs((flight.deviation - flight.linear) / cycle.state_scale).max()))
+    assert apart[0] / apart[1] == pytest.approx(4, rel=0.1)
+    assert apart[1] / apart[2] == pytest.approx(4, rel=0.1)
+    lateral = flight.linear.sel(state=["v", "p", "r", "phi"])
+    assert np.abs(lateral).max() > 1e3 * np.abs(flight.linear.sel(state=["u", "w", "q"])).max()
+    # Coming from the left, it turns the bird's nose to the left, into the wind.
+    assert flight.linear.sel(state="r").sum() < 0
+    mirrored = birdmb.gust_response(cycle, CosineGust(lateral=-0.1), periods=2, samples=20)
+    np.testing.assert_allclose(mirrored.Y, -flight.Y, atol=1e-12)
+    planar = birdmb.find_limit_cycle(birdmb.RigidModel(coarse))
+    with pytest.raises(birdmb.BirdmbError, match='motion="free"'):
+        birdmb.gust_response(planar, gust)
+
+
 def test_impossible_requests(cycles):
     with pytest.raises(ValueError, match="at least 1"):
         birdmb.gust_response(cycles["rigid"], StepGust(), periods=0)
-    with pytest.raises(ValueError, match="two velocities"):
+    with pytest.raises(ValueError, match="two or three velocities"):
         birdmb.gust_response(cycles["rigid"], lambda _t: 1.0)
 
 
