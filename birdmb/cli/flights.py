@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 import typer
@@ -75,8 +75,7 @@ def _found(
     model = model_of(bird, model_name, motion, None)
     announce(model, model_name, progress)
     progress.doing("laying out the starts")
-    found = find_limit_cycles(model, deflations=deflations_for(model), callback=told(progress))
-    cycles = cast("list[FlightCycle]", found)
+    cycles = find_limit_cycles(model, deflations=deflations_for(model), callback=told(progress))
     if not cycles:
         raise SearchFailed(
             f"{bird.name}: no limit cycle from any of the starts over speed, incidence and path "

@@ -225,13 +225,12 @@ def number_of(cycles: list[FlightCycle]) -> str:
 def _all(
     model: RigidModel | MultibodyModel, search: Search, progress: Progress
 ) -> list[FlightCycle]:
-    found = find_limit_cycles(
+    return find_limit_cycles(
         model,
         max_iterations=min(search.max_iterations, _ITERATIONS_PER_START),
         deflations=deflations_for(model),
         callback=told(progress),
     )
-    return cast("list[FlightCycle]", found)
 
 
 def _again(
@@ -264,8 +263,7 @@ def other_flights(
         )
     except (OrbitError, StateError):
         return None
-    flights = cast("list[FlightCycle]", found)
-    return [flight for flight in flights if flight.why_no_flight is None]
+    return [flight for flight in found if flight.why_no_flight is None]
 
 
 def _starts_of_others(model: RigidModel | MultibodyModel) -> list[FloatArray] | None:

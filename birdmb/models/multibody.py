@@ -43,7 +43,7 @@ class MultibodyModel(TreeModel):
         gust: velocity of the air, as for `WingModel`.
     """
 
-    limit_cycle_type = FlightCycle
+    limit_cycle_type: type[FlightCycle] = FlightCycle
     _body_states = len(BODY_STATES)
 
     def initial_guess(self) -> FloatArray:

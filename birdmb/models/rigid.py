@@ -88,7 +88,7 @@ class RigidModel(WingModel):
     says.
     """
 
-    limit_cycle_type = FlightCycle
+    limit_cycle_type: type[FlightCycle] = FlightCycle
 
     def __init__(
         self,

@@ -35,7 +35,7 @@ class TetheredModel(TreeModel):
         ArgumentError: the body turns.
     """
 
-    limit_cycle_type = SteppedCycle
+    limit_cycle_type: type[SteppedCycle] = SteppedCycle
     _body_states = 0
 
     def __init__(

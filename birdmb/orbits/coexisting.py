@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, overload
 
 import numpy.typing as npt
 
@@ -14,13 +14,14 @@ from birdmb.orbits.coarse import CoarseOrbit, CoarseSearch
 from birdmb.orbits.collocation_search import search_by_collocation
 from birdmb.orbits.cycle import LimitCycle
 from birdmb.orbits.errors import ArgumentError, NotSmoothError, require_tolerance
-from birdmb.orbits.problem import HasRates, HasRhs, HasStartingPaths, Model
+from birdmb.orbits.problem import HasRates, HasRhs, HasStartingPaths, Model, ModelWithCycles
 from birdmb.orbits.result import FloquetResult
 from birdmb.orbits.sameness import among
 from birdmb.orbits.search import (
     ACCURACY,
     NEAR,
     TOLERANCE,
+    CycleT,
     SearchMethod,
     find_limit_cycle,
     most_nodes,
@@ -49,6 +50,42 @@ class Attempt:
     found: int
 
 
+@overload
+def find_limit_cycles(
+    model: ModelWithCycles[CycleT],
+    starts: Sequence[Guess] | None = ...,
+    *,
+    method: SearchMethod = ...,
+    period_guess: float | Sequence[float] | None = ...,
+    start_time: float = ...,
+    known: Sequence[LimitCycle] = ...,
+    tolerance: float = ...,
+    accuracy: float = ...,
+    max_iterations: int = ...,
+    deflations: int = ...,
+    key: Callable[[LimitCycle], Any] | None = ...,
+    callback: Callable[[Attempt], None] | None = ...,
+) -> list[CycleT]: ...
+
+
+@overload
+def find_limit_cycles(
+    model: Model,
+    starts: Sequence[Guess] | None = ...,
+    *,
+    method: SearchMethod = ...,
+    period_guess: float | Sequence[float] | None = ...,
+    start_time: float = ...,
+    known: Sequence[LimitCycle] = ...,
+    tolerance: float = ...,
+    accuracy: float = ...,
+    max_iterations: int = ...,
+    deflations: int = ...,
+    key: Callable[[LimitCycle], Any] | None = ...,
+    callback: Callable[[Attempt], None] | None = ...,
+) -> list[LimitCycle]: ...
+
+
 @one_thread()
 def find_limit_cycles(
     model: Model,
@@ -64,7 +101,7 @@ def find_limit_cycles(
     deflations: int = 12,
     key: Callable[[LimitCycle], Any] | None = None,
     callback: Callable[[Attempt], None] | None = None,
-) -> list[LimitCycle]:
+) -> list[Any]:
     """Find the distinct periodic orbits that many starts lead to, with their multipliers.
 
     From each start Fourier collocation on few nodes; then from some of the starts again, deflated

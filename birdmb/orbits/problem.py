@@ -7,11 +7,13 @@ needs to be inherited.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, Protocol, runtime_checkable
+from typing import Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 
 from birdmb._typing import FloatArray
+
+CycleT_co = TypeVar("CycleT_co", covariant=True)
 
 
 @runtime_checkable
@@ -185,7 +187,13 @@ class HasTrajectory(Protocol):
 
 
 @runtime_checkable
-class HasLimitCycleType(Protocol):
+class HasLimitCycleType(Protocol[CycleT_co]):
     """The model brings its own subclass of `LimitCycle`."""
 
-    limit_cycle_type: type[Any]
+    @property
+    def limit_cycle_type(self) -> type[CycleT_co]:
+        """The subclass."""
+
+
+class ModelWithCycles(Model, HasLimitCycleType[CycleT_co], Protocol[CycleT_co]):
+    """A model that brings its own subclass of `LimitCycle`; searches return such cycles of it."""

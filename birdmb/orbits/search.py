@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import Executor
-from typing import Literal, get_args
+from typing import Literal, TypeVar, get_args, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -19,11 +19,12 @@ from birdmb.orbits.errors import (
 )
 from birdmb.orbits.iteration import Iteration
 from birdmb.orbits.newton import Damping
-from birdmb.orbits.problem import HasRates, HasRhs, Model
+from birdmb.orbits.problem import HasRates, HasRhs, Model, ModelWithCycles
 from birdmb.orbits.result import FloquetResult
 from birdmb.orbits.shooting_search import search_by_shooting
 
 SearchMethod = Literal["auto", "collocation", "shooting"]
+CycleT = TypeVar("CycleT", bound=LimitCycle)
 
 TOLERANCE, ACCURACY = 1e-9, 1e-7
 # An automatic choice goes on to shooting rather than to more nodes, or to more unknowns, than this.
@@ -32,6 +33,48 @@ _MOST_UNKNOWNS_BY_CHOICE = 1000
 _MOST_NODES = 1025
 # What collocation left unfinished is a better guess than the one it began with, if it is this near.
 NEAR = 0.01
+
+
+@overload
+def find_limit_cycle(
+    model: ModelWithCycles[CycleT],
+    guess: npt.ArrayLike | FloquetResult | None = ...,
+    *,
+    method: SearchMethod = ...,
+    period_guess: float | None = ...,
+    start_time: float = ...,
+    damping: Damping = ...,
+    tolerance: float = ...,
+    max_iterations: int = ...,
+    nodes: int | None = ...,
+    accuracy: float = ...,
+    segments: int | None = ...,
+    jacobian: Literal["auto", "variational", "finite-differences"] = ...,
+    jacobian_guess: npt.ArrayLike | None = ...,
+    executor: Executor | None = ...,
+    callback: Callable[[Iteration], None] | None = ...,
+) -> CycleT: ...
+
+
+@overload
+def find_limit_cycle(
+    model: Model,
+    guess: npt.ArrayLike | FloquetResult | None = ...,
+    *,
+    method: SearchMethod = ...,
+    period_guess: float | None = ...,
+    start_time: float = ...,
+    damping: Damping = ...,
+    tolerance: float = ...,
+    max_iterations: int = ...,
+    nodes: int | None = ...,
+    accuracy: float = ...,
+    segments: int | None = ...,
+    jacobian: Literal["auto", "variational", "finite-differences"] = ...,
+    jacobian_guess: npt.ArrayLike | None = ...,
+    executor: Executor | None = ...,
+    callback: Callable[[Iteration], None] | None = ...,
+) -> LimitCycle: ...
 
 
 def find_limit_cycle(

@@ -8,12 +8,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import cast
 
 import numpy as np
 
 from birdmb.errors import BirdmbError
-from birdmb.models import FlightCycle, MultibodyModel, RigidModel
+from birdmb.models import MultibodyModel, RigidModel
 from birdmb.orbits import OdeModel, find_limit_cycle
 from birdmb.studies.trim import trim_flight
 from birdmb.topology import Bird, load_bird
@@ -170,7 +169,7 @@ def _chapter_8(topologies: Path) -> Iterator[Case]:
         def computed(k: float = k, c: float = c) -> Quantities:
             bird = load_bird(topologies / "ibis_thesis_ch8.toml")
             bird = bird.with_joint("shoulder.flap", stiffness=k, damping=c)
-            flight = cast(FlightCycle, find_limit_cycle(MultibodyModel(bird)))
+            flight = find_limit_cycle(MultibodyModel(bird))
             values = (abs(flight.multipliers[0]), flight.power, flight.potential_power)
             return dict(zip(_CHAPTER_8, map(float, values), strict=True))
 
