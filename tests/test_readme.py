@@ -19,7 +19,7 @@ def test_the_example_type_checks(tmp_path):
     example.write_text(
         found.group(1)
         + "rigid: birdmb.FlightCycle = birdmb.find_limit_cycle(birdmb.RigidModel(bird))\n"
-        + "all_of_them: list[birdmb.FlightCycle] = birdmb.find_limit_cycles(birdmb.RigidModel(bird))\n",
+        + "found: list[birdmb.FlightCycle] = birdmb.find_limit_cycles(birdmb.RigidModel(bird))\n",
         encoding="utf-8",
     )
     checked = subprocess.run(
