@@ -59,7 +59,7 @@ def load_evaluations(prescribed: birdmb.Bird, compliant: birdmb.Bird) -> tuple[f
     shape = model.instant(0.01).shape
     free = best(
         lambda: air_forces(
-            model.wing, shape, model.turning, angles, rates, frame, 0.1, 18.0, 1.0, 0.1
+            model.wing, shape, model.rigid_joint_count, angles, rates, frame, 0.1, 18.0, 1.0, 0.1
         ),
         inner=2000,
     )

@@ -1,5 +1,7 @@
 """What the body, its tail and the wings' profile add to the loads of the lifting line."""
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Drag of the body at its centre of mass (docs/model.md, section 9)."""
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

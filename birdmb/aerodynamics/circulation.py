@@ -10,6 +10,8 @@ induced velocity, and the profile drag 1/2 rho C_d c dl |U| U of the whole wind 
 Everything is in body axes, moments are about the body's centre of mass G.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

@@ -10,6 +10,8 @@ point. From every node a straight semi-infinite vortex leaves backwards along th
 with the difference of the circulations on either side.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Loads of the wing about its joints and the hinges of its feathers."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from birdmb._kernels import kernel
@@ -10,21 +12,25 @@ from birdmb.wing.chain import Chain
 
 @kernel
 def joint_torques(
-    wing: WingArrays, chain: Chain, position: FloatArray, force: FloatArray, beyond: FloatArray
+    wing: WingArrays,
+    chain: Chain,
+    position: FloatArray,
+    force: FloatArray,
+    distal_fraction: FloatArray,
 ) -> FloatArray:
     """Torques (J,) N m that the elements' loads exert about the joints of the right wing.
 
     Each segment carries the loads of its elements.
 
-    `position` (N, 3) m of the loads from G, `force` (N, 3) N, both in body axes; `beyond` (N, 2)
-    the fractions carried beyond elbow and wrist.
+    `position` (N, 3) m of the loads from G, `force` (N, 3) N, both in body axes; `distal_fraction`
+    (N, 2) is carried beyond elbow and wrist.
     """
     torque = np.zeros(wing.segment.size)
     moment = np.zeros((3, 3))
     for e in range(force.shape[0]):
         fx, fy, fz = force[e]
         for bone in range(3):
-            share = 1.0 if bone == 0 else beyond[e, bone - 1]
+            share = 1.0 if bone == 0 else distal_fraction[e, bone - 1]
             # Numbers, not vectors: making these would take most of the time.
             x = position[e, 0] - wing.root[0] - chain.origin[bone, 0]
             y = position[e, 1] - wing.root[1] - chain.origin[bone, 1]

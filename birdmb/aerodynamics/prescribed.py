@@ -5,6 +5,8 @@ phase alone (docs/model.md, section 5), so they are computed once and shared by 
 and every perturbation of it. What remains per evaluation is three products of small matrices.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np
@@ -38,7 +40,7 @@ class PrescribedWing(NamedTuple):
 
 
 @kernel
-def driven(wing: WingArrays, t: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+def driver_motion(wing: WingArrays, t: float) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Driver angles (A,) rad, rates and accelerations of all joints and hinges at time t (s)."""
     argument = wing.angular_frequency * t + wing.phase
     swing = wing.amplitude * np.sin(argument)
@@ -49,8 +51,10 @@ def driven(wing: WingArrays, t: float) -> tuple[FloatArray, FloatArray, FloatArr
     )
 
 
-def driven_at(wing: WingArrays, times: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """As `driven`, each (P, A), at `times` (P,) s."""
+def driver_motion_along(
+    wing: WingArrays, times: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """As `driver_motion`, each (P, A), at `times` (P,) s."""
     argument = wing.angular_frequency * times[:, None] + wing.phase
     swing = wing.amplitude * np.sin(argument)
     return (
@@ -69,7 +73,7 @@ def prescribed_wing(
     published: bool,
 ) -> PrescribedWing:
     """Tabulate the wing at `times` (P,) s; inverses are NaN where the wing is across the plane."""
-    angles, rates, _ = driven_at(wing, times)
+    angles, rates, _ = driver_motion_along(wing, times)
     shapes = wing_shapes(wing, angles, rates, elements, rounding, published)
     return _tabulated(shapes, wing.root, tail)
 

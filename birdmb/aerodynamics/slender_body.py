@@ -1,5 +1,7 @@
 """Side force and moment of a slender body that moves obliquely (docs/model.md, section 9)."""
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

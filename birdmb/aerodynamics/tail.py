@@ -4,6 +4,8 @@ Everything is in body axes and in the plane of symmetry. The loads act at the ce
 a slender delta wing, two thirds of its chord behind the apex, and follow the air's velocity there.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

@@ -10,6 +10,8 @@ would in the mirrored motion, and mirroring changes the sign of v, p and r. Half
 wings' circulations obeys the even influence of the wake, half their difference the odd one.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

@@ -14,7 +14,7 @@ from birdmb.cli.results import growth, verdict_sentence
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
-    from birdmb.models.wing_model import WingModel
+    from birdmb.models.wing_model import BirdModel
     from birdmb.orbits.problem import HasStateUnits
     from birdmb.studies import Validity
 
@@ -73,7 +73,7 @@ def _orbit(cycle: FlightCycle) -> Table:
 
 def _multipliers(cycle: FlightCycle) -> Table:
     columns = ["Re", "Im", "modulus", "error", "a disturbance"]
-    in_space = cast("WingModel", cycle.model).motion.lateral.any()
+    in_space = cast("BirdModel", cycle.model).motion.lateral.any()
     if in_space:
         columns.append("mode")
     table = table_of("Floquet multipliers", *columns, numbers=(0, 1, 2, 3))
@@ -131,7 +131,7 @@ def _flight(cycle: FlightCycle, validity: Validity) -> Table:
     return table
 
 
-def _turn(cycle: FlightCycle, model: WingModel) -> list[tuple[str, str, str, str]]:
+def _turn(cycle: FlightCycle, model: BirdModel) -> list[tuple[str, str, str, str]]:
     """Bank and turn of a flight in space."""
     if not model.motion.lateral.any():
         return []
@@ -141,7 +141,7 @@ def _turn(cycle: FlightCycle, model: WingModel) -> list[tuple[str, str, str, str
     ]
 
 
-def _method(cycle: FlightCycle, model: WingModel) -> list[tuple[str, str, str, str]]:
+def _method(cycle: FlightCycle, model: BirdModel) -> list[tuple[str, str, str, str]]:
     """How the cycle was found, and what is known of its errors."""
     error = f"{cycle.integration_error:.1e}"
     if cycle.nodes is not None:
@@ -163,11 +163,11 @@ def _method(cycle: FlightCycle, model: WingModel) -> list[tuple[str, str, str, s
     ]
 
 
-def _flown(model: WingModel) -> str:
+def _flown(model: BirdModel) -> str:
     return f"{model.integration_method} integration, {_steps(model)}"
 
 
-def _steps(model: WingModel) -> str:
+def _steps(model: BirdModel) -> str:
     stiff = " of Radau IIA: stiff joints" if model.integration_method == "implicit" else ""
     return f"{model.steps_per_beat} steps a beat{stiff}"
 

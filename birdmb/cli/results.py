@@ -11,7 +11,7 @@ import numpy as np
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle, FlightMode
-    from birdmb.models.wing_model import WingModel
+    from birdmb.models.wing_model import BirdModel
     from birdmb.studies import Validity
 
 
@@ -89,7 +89,7 @@ def _mode(mode: FlightMode) -> dict[str, object]:
     }
 
 
-def taken_as_prescribed(model: WingModel) -> list[str]:
+def taken_as_prescribed(model: BirdModel) -> list[str]:
     """Compliant joints and hinges that the model holds to their drivers."""
     free = [joint.name for joint in model.bird.compliant_joints]
     free += [feather.hinge_name for feather in model.bird.hinged_feathers]

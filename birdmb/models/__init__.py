@@ -10,10 +10,11 @@ from birdmb.models.loads import Loads, TailLoads
 from birdmb.models.multibody import MultibodyModel
 from birdmb.models.rigid import RigidModel
 from birdmb.models.tethered import TetheredModel
-from birdmb.models.wing_model import WingModel
+from birdmb.models.wing_model import BirdModel
 
 __all__ = [
     "Beat",
+    "BirdModel",
     "CosineGust",
     "Flight",
     "FlightCycle",
@@ -26,6 +27,5 @@ __all__ = [
     "StepGust",
     "TailLoads",
     "TetheredModel",
-    "WingModel",
     "Work",
 ]

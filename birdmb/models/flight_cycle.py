@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from birdmb._typing import FloatArray
-from birdmb.aerodynamics.prescribed import driven_at
+from birdmb.aerodynamics.prescribed import driver_motion_along
 from birdmb.errors import ArgumentError
 from birdmb.models.beat import Beat
 from birdmb.models.energy import Work, work_by_sign
@@ -67,7 +67,7 @@ class FlightCycle(SteppedCycle):
             loads_along=loads.taken(ends),
             joint_rates=model.joint_motion_along(times, states)[1],
             actuator_torques=torques[ends],
-            driver_rates=driven_at(model.wing, times)[1],
+            driver_rates=driver_motion_along(model.wing, times)[1],
         )
 
     @cached_property

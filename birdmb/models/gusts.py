@@ -15,7 +15,7 @@ Gust: TypeAlias = Callable[[float], Sequence[float]]
 """Velocity of the air (m/s) at a time (s): forwards (a tail wind), upwards, perhaps to the right.
 
 Seen along the bird's heading, which to first order in the gust is that before it. One with steps or
-kinks names their times (s) as its attribute `breaks`.
+kinks names their times (s) as its attribute `discontinuities`.
 """
 
 
@@ -77,7 +77,7 @@ class CosineGust:
     lateral: float = 0.0
 
     @property
-    def breaks(self) -> tuple[float, ...]:
+    def discontinuities(self) -> tuple[float, ...]:
         """Times (s) of its beginning and end, where its curvature jumps."""
         return self.start, self.start + self.duration
 
@@ -105,7 +105,7 @@ class StepGust:
     lateral: float = 0.0
 
     @property
-    def breaks(self) -> tuple[float, ...]:
+    def discontinuities(self) -> tuple[float, ...]:
         """Time (s) of the step."""
         return (self.start,)
 

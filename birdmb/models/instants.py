@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.aerodynamics.prescribed import driven, driven_at
+from birdmb.aerodynamics.prescribed import driver_motion, driver_motion_along
 from birdmb.models.exudyn_tree import BODY_COORDINATES
 from birdmb.models.failures import lifting_line_lost
 from birdmb.topology import Bird
@@ -20,7 +20,7 @@ from birdmb.wing.stacked import StackedShapes, wing_shapes
 _INSTANTS_KEPT = 8192
 
 
-class Instant(NamedTuple):
+class DriverState(NamedTuple):
     """What an instant alone determines; its arrays are shared and must not be written to."""
 
     angles: FloatArray  # (A,) rad, of the drivers
@@ -30,7 +30,7 @@ class Instant(NamedTuple):
 
 
 class StackedInstants(NamedTuple):
-    """What P instants determine, as `Instant`, each array stacked along a first axis."""
+    """What P instants determine, as `DriverState`, each array stacked along a first axis."""
 
     angles: FloatArray  # (P, A)
     rates: FloatArray  # (P, A)
@@ -41,7 +41,7 @@ class StackedInstants(NamedTuple):
 class _Kept(NamedTuple):
     """What was made so far."""
 
-    single: dict[float, Instant]  # by time (s)
+    single: dict[float, DriverState]  # by time (s)
     stacks: dict[bytes, StackedInstants]  # by the times' bytes
 
     def stack(self, times: FloatArray, made: StackedInstants) -> StackedInstants:
@@ -68,7 +68,7 @@ class Instants:
         bird: the bird.
         wing: its wing.
         discretisation: elements, rounding and whether the line is the published one.
-        turning: how many joints at the shoulder turn the wing as a whole.
+        rigid_joint_count: how many joints at the shoulder turn the wing as a whole.
         shaping: which of the other joints and hinges follow no driver, and shape the wing; if any
             do, no shape is made in advance.
     """
@@ -78,21 +78,21 @@ class Instants:
         bird: Bird,
         wing: WingArrays,
         discretisation: tuple[int, float, bool],
-        turning: int,
+        rigid_joint_count: int,
         shaping: Sequence[int],
     ) -> None:
         self._bird, self._wing = bird, wing
-        self._discretisation, self._turning = discretisation, turning
+        self._discretisation, self._rigid_joint_count = discretisation, rigid_joint_count
         self._shaping = tuple(shaping)
         parts = (np.asarray(part) for part in wing)
-        how = turning, self._shaping, discretisation
+        how = rigid_joint_count, self._shaping, discretisation
         self._kept = _kept((how, *((p.shape, p.tobytes()) for p in parts)))
 
     def stacked(self, times: FloatArray) -> StackedInstants:
         """What `times` (P,) s determine; raises `StateError` if no lifting line fits the wing."""
         found = self._kept.stacks.get(times.tobytes())
         if found is None:
-            angles, rates, accelerations = driven_at(self._wing, times)
+            angles, rates, accelerations = driver_motion_along(self._wing, times)
             shapes = None if self._shaping else self.shapes(times, angles, rates)
             made = StackedInstants(angles, rates, accelerations, shapes)
             found = self._kept.stack(times, made)
@@ -100,7 +100,7 @@ class Instants:
 
     def shapes(self, times: FloatArray, angles: FloatArray, rates: FloatArray) -> StackedShapes:
         """The wing at `times` (P,) s, `angles` and `rates` (P, A), as `shape` gives each."""
-        moving = np.arange(angles.shape[1]) >= self._turning
+        moving = np.arange(angles.shape[1]) >= self._rigid_joint_count
         hinges = self._wing.segment.size
         singly = [joint for joint in self._shaping if joint < hinges]
         how = self._discretisation
@@ -110,7 +110,7 @@ class Instants:
             raise lifting_line_lost(self._bird, float(times[k]), angles[k])
         return shapes
 
-    def at(self, t: float) -> Instant:
+    def at(self, t: float) -> DriverState:
         """What time t (s) determines; raises `StateError` if no lifting line fits the wing."""
         kept = self._kept.single
         instant = kept.get(t)
@@ -125,16 +125,16 @@ class Instants:
 
         Raises `StateError` if no lifting line fits it.
         """
-        moving = np.arange(angles.size) >= self._turning
+        moving = np.arange(angles.size) >= self._rigid_joint_count
         shape = wing_shape(self._wing, moving * angles, moving * rates, *self._discretisation)
         if not shape.converged:
             raise lifting_line_lost(self._bird, t, angles)
         return shape
 
-    def _made(self, t: float) -> Instant:
-        angles, rates, accelerations = driven(self._wing, t)
+    def _made(self, t: float) -> DriverState:
+        angles, rates, accelerations = driver_motion(self._wing, t)
         shape = None if self._shaping else self.shape(t, angles, rates)
         of_tree = np.concatenate([np.zeros(BODY_COORDINATES), accelerations, accelerations])
         for shared in (angles, rates, of_tree):
             shared.flags.writeable = False
-        return Instant(angles, rates, of_tree, shape)
+        return DriverState(angles, rates, of_tree, shape)

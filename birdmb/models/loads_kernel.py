@@ -56,7 +56,7 @@ def loads_along(
     wing: WingArrays,
     shapes: StackedShapes,
     shape_of: IntArray,
-    turning: int,
+    rigid_joint_count: int,
     frame: Airframe,
     angles: FloatArray,
     rates: FloatArray,
@@ -65,8 +65,8 @@ def loads_along(
     """Loads at K instants; NaN where the wings are across the plane of symmetry.
 
     `shape_of` (K,) tells which of the stacked `shapes` belongs to an instant, with the first
-    `turning` joints at zero; `angles` and `rates` (K, A) are those of joints and hinges, `twists`
-    (K, 6) m/s and rad/s the body's relative to the air.
+    `rigid_joint_count` joints at zero; `angles` and `rates` (K, A) are those of joints and hinges,
+    `twists` (K, 6) m/s and rad/s the body's relative to the air.
     """
     (count, joints), n = angles.shape, shapes.chord.shape[1]
     stack = StackedLoads(
@@ -98,11 +98,11 @@ def loads_along(
     for k in range(count):
         chain = joint_chain(wing, angles[k])
         shape = shape_at(shapes, shape_of[k])
-        if turning > 0:
+        if rigid_joint_count > 0:
             spin = np.zeros(3)
-            for j in range(turning):
+            for j in range(rigid_joint_count):
                 spin += rates[k, j] * chain.axis[j]
-            shape = turned(shape, frame_after(wing, angles[k], turning), spin)
+            shape = turned(shape, frame_after(wing, angles[k], rigid_joint_count), spin)
         placed = place_elements(shape, wing.root)
         stack.position[k], stack.node[k] = placed.position, placed.node
         stack.velocity[k] = placed.velocity
@@ -119,7 +119,7 @@ def loads_along(
             (right.force, stack.joint_torques[k]),
             (left.force, stack.left_joint_torques[k]),
         ):
-            about_joints = joint_torques(wing, chain, placed.position, force, shape.beyond)
+            about_joints = joint_torques(wing, chain, placed.position, force, shape.distal_fraction)
             torques[: about_joints.size] = about_joints
             torques[about_joints.size :] = hinge_torques(shape.hinge_velocity, force)
         of_body = body_loads(frame, twists[k, :3])[:, 0]

@@ -40,7 +40,7 @@ class MultibodyModel(TreeModel):
         bird: the bird.
         steps_per_beat: integration steps per wingbeat; by default the model chooses.
         integrator: "explicit", "implicit", or "auto" for the model to choose.
-        gust: velocity of the air, as for `WingModel`.
+        gust: velocity of the air, as for `BirdModel`.
     """
 
     limit_cycle_type: type[FlightCycle] = FlightCycle

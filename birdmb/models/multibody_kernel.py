@@ -37,7 +37,7 @@ def _body_forces(loads: FloatArray, theta: float) -> FloatArray:
 def air_forces(
     wing: WingArrays,
     shape: WingShape,
-    turning: int,
+    rigid_joint_count: int,
     angles: FloatArray,
     rates: FloatArray,
     frame: Airframe,
@@ -50,22 +50,22 @@ def air_forces(
 
     Third comes the wings' `clearance` (m) from the plane of symmetry; across it forces are NaN.
 
-    `shape` is the wing with its first `turning` joints at zero: they carry it as a whole, so their
-    `angles` and `rates` turn it into body axes here. `vx`, `vz` (m/s, in the world) are the body's
-    velocity through the air.
+    `shape` is the wing with its first `rigid_joint_count` joints at zero: they carry it as a whole,
+    so their `angles` and `rates` turn it into body axes here. `vx`, `vz` (m/s, in the world) are
+    the body's velocity through the air.
     """
     chain = joint_chain(wing, angles)
     spin = np.zeros(3)
-    for j in range(turning):
+    for j in range(rigid_joint_count):
         spin += rates[j] * chain.axis[j]
-    shape = turned(shape, frame_after(wing, angles, turning), spin)
+    shape = turned(shape, frame_after(wing, angles, rigid_joint_count), spin)
     placed = place_elements(shape, wing.root)
     distance = clearance(placed)
     if not distance >= 0.0:
         return np.full(3, np.nan), np.full(angles.size, np.nan), distance
     u, w = body_velocity(theta, vx, vz)
     loads = element_loads(placed, frame.density, frame.profile, u, w, pitch_rate)
-    about_joints = joint_torques(wing, chain, placed.position, loads.force, shape.beyond)
+    about_joints = joint_torques(wing, chain, placed.position, loads.force, shape.distal_fraction)
     torques = np.concatenate((about_joints, hinge_torques(shape.hinge_velocity, loads.force)))
     total = resultant(placed, loads.force)
     induced = np.zeros(2)
@@ -79,7 +79,7 @@ def air_forces(
 def tree_forces(
     wing: WingArrays,
     shape: WingShape,
-    turning: int,
+    rigid_joint_count: int,
     frame: Airframe,
     springs: Springs,
     driver_angles: FloatArray,
@@ -101,7 +101,7 @@ def tree_forces(
     angles, rates = q[right], v[right]
     vx, vz = v[0] - air[0], v[1] - air[1]
     body, torques, distance = air_forces(
-        wing, shape, turning, angles, rates, frame, q[2], vx, vz, v[2]
+        wing, shape, rigid_joint_count, angles, rates, frame, q[2], vx, vz, v[2]
     )
     torques += spring_torques(springs, angles - driver_angles, rates - driver_rates)
     forces[:_BODY] = body

@@ -39,7 +39,7 @@ class Constants(NamedTuple):
     frame: Airframe
     springs: Springs
     prescribed: BoolArray  # (3 + A,) which coordinates follow a given motion
-    turning: int  # how many joints at the shoulder turn the wing as a whole
+    rigid_joint_count: int  # how many joints at the shoulder turn the wing as a whole
 
 
 class Motion(NamedTuple):
@@ -119,10 +119,10 @@ def _air_loads(
 
     The s-th of the shapes is theirs.
     """
-    wing, frame, turning = constants.wing, constants.frame, constants.turning
+    wing, frame, rigid_joint_count = constants.wing, constants.frame, constants.rigid_joint_count
     angles = motion.angles[rows[0]]
     loads = np.full((rows.size, BODY + angles.size), np.nan)
-    chain, axes = joint_chain(wing, angles), frame_after(wing, angles, turning)
+    chain, axes = joint_chain(wing, angles), frame_after(wing, angles, rigid_joint_count)
     shape = turned(shape_at(shapes, s), axes, np.zeros(3))
     placed = place_elements(shape, wing.root)
     distance = clearance(placed)
@@ -145,7 +145,7 @@ def _air_loads(
             induced = at_tail @ strengths
         u, w, q = through[r]
         loads[r, :BODY] = resultant(placed, force) + planar_airframe_loads(frame, induced, u, w, q)
-        about_joints = joint_torques(wing, chain, placed.position, force, shape.beyond)
+        about_joints = joint_torques(wing, chain, placed.position, force, shape.distal_fraction)
         about_hinges = hinge_torques(shape.hinge_velocity, force)
         loads[r, BODY : BODY + about_joints.size] = 2.0 * about_joints
         loads[r, BODY + about_joints.size :] = 2.0 * about_hinges
@@ -180,7 +180,7 @@ def _winds(
         through[r, 1] = w - forward * si - down * c
         through[r, 2] = q
         spin = np.zeros(3)
-        for j in range(constants.turning):
+        for j in range(constants.rigid_joint_count):
             spin += rates[j] * chain.axis[j]
         velocity = velocity_at(shapes, s, rates) @ axes.T
         for e in range(n):

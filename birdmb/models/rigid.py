@@ -1,5 +1,7 @@
 """The rigid bird: a body with massless wings on their drivers (docs/model.md, section 6)."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -11,7 +13,7 @@ from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.prescribed import (
     OddWing,
     PrescribedWing,
-    driven,
+    driver_motion,
     every_second,
     no_odd_wing,
     odd_wing,
@@ -31,9 +33,9 @@ from birdmb.models.motion import PLANAR, Motion, MotionName, motion_named
 from birdmb.models.rigid_kernel import RigidBody, integrate_rigid, rates_along
 from birdmb.models.starts import INCIDENCES, PATH_ANGLES, SPEEDS, steady_states
 from birdmb.models.trim import mean_trim
-from birdmb.models.wing_model import STEPS_PER_BEAT, WingModel
+from birdmb.models.wing_model import STEPS_PER_BEAT, BirdModel
 from birdmb.topology import Bird
-from birdmb.topology.parts import impossible_moments
+from birdmb.topology.inertia import impossible_moments
 from birdmb.wing.stacked import StackedShapes
 
 _ORDER = 4
@@ -76,7 +78,7 @@ def rigid_body(bird: Bird, motion: Motion) -> RigidBody:
     )
 
 
-class RigidModel(WingModel):
+class RigidModel(BirdModel):
     """Rigid body with massless wings; all joints follow their drivers, compliant ones too.
 
     With motion "planar" in symmetric longitudinal flight, with the states u, w, q and theta; with
@@ -288,12 +290,12 @@ class RigidModel(WingModel):
             wing = prescribed_wing(self.wing, self.airframe.tail, times, *self.discretisation)
         if not wing.shapes.converged.all():
             t = float(times[np.argmin(wing.shapes.converged)])
-            raise lifting_line_lost(self.bird, t, driven(self.wing, t)[0])
+            raise lifting_line_lost(self.bird, t, driver_motion(self.wing, t)[0])
         misplaced = ~(wing.clearance >= 0.0)
         if misplaced.any():
             worst = int(np.argmin(np.where(misplaced, wing.clearance, np.inf)))
             t = float(times[worst])
             raise wing_misplaced(
-                self.bird, t, driven(self.wing, t)[0], float(wing.clearance[worst])
+                self.bird, t, driver_motion(self.wing, t)[0], float(wing.clearance[worst])
             )
         return wing

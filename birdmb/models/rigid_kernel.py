@@ -6,6 +6,8 @@ sin(phi) + r cos(phi)), theta' = q cos(phi) - r sin(phi). Planar flight is their
 states.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

@@ -9,7 +9,7 @@ import numpy as np
 from birdmb._typing import FloatArray
 
 if TYPE_CHECKING:
-    from birdmb.models.wing_model import WingModel
+    from birdmb.models.wing_model import BirdModel
 
 # Parts of the speed at which the wings carry the weight with this lift coefficient; degrees. What
 # is most likely first.
@@ -25,7 +25,7 @@ FEW_PATH_ANGLES = (0.0, -25.0)
 
 
 def steady_states(
-    model: WingModel,
+    model: BirdModel,
     speeds: tuple[float, ...],
     incidences: tuple[float, ...],
     path_angles: tuple[float, ...],

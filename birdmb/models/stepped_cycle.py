@@ -12,7 +12,7 @@ from scipy.linalg import block_diag
 
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
-from birdmb.models.wing_model import WingModel
+from birdmb.models.wing_model import BirdModel
 from birdmb.orbits import LimitCycle, periodic_multipliers
 from birdmb.orbits.multipliers import paired_distances
 from birdmb.orbits.problem import VariationalModel
@@ -39,12 +39,12 @@ class SteppedCycle(LimitCycle):
     """
 
     @property
-    def bird_model(self) -> WingModel:
+    def bird_model(self) -> BirdModel:
         """`model`, known to be a bird's."""
-        return cast(WingModel, self.model)
+        return cast(BirdModel, self.model)
 
     @cached_property
-    def _finer_model(self) -> WingModel:
+    def _finer_model(self) -> BirdModel:
         """The same method with twice the steps: explicit against explicit."""
         return self.bird_model.with_steps(2 * self.bird_model.steps_per_beat)
 
@@ -111,7 +111,7 @@ class SteppedCycle(LimitCycle):
         """Errors (n,) of the multipliers that the verdict counts: also of the integration."""
         return np.asarray(self.multiplier_errors + self.multiplier_integration_errors)
 
-    def _difference_from(self, model: WingModel) -> float:
+    def _difference_from(self, model: BirdModel) -> float:
         """Largest difference from the multipliers that `model` gives; raises `StateError`."""
         points, times = self._closed_by(model)
         factors = np.array(
@@ -126,7 +126,7 @@ class SteppedCycle(LimitCycle):
         found = periodic_multipliers(factors, none, self.state_scale).multipliers
         return float(paired_distances(self.multipliers, found).max())
 
-    def _closed_by(self, model: WingModel) -> tuple[FloatArray, FloatArray]:
+    def _closed_by(self, model: BirdModel) -> tuple[FloatArray, FloatArray]:
         """Starts (M, n) of the segments of the orbit that `model` has nearby, and times (M + 1,).
 
         By Newton's method with the Jacobians that are known; raises `StateError`.
@@ -155,7 +155,7 @@ class SteppedCycle(LimitCycle):
 
 
 def _flow_jacobian(
-    model: WingModel, x: FloatArray, t0: float, t1: float, scale: FloatArray
+    model: BirdModel, x: FloatArray, t0: float, t1: float, scale: FloatArray
 ) -> FloatArray:
     if isinstance(model, VariationalModel):
         return model.flow_jacobian(x, t0, t1)[1]

@@ -29,7 +29,7 @@ class TetheredModel(TreeModel):
         body_state: u, w (m/s), q = 0 and theta (rad) of the body, (4,).
         steps_per_beat: integration steps per wingbeat; by default the model chooses.
         integrator: "explicit", "implicit", or "auto" for the model to choose.
-        gust: velocity of the air, as for `WingModel`.
+        gust: velocity of the air, as for `BirdModel`.
 
     Raises:
         ArgumentError: the body turns.

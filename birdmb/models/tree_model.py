@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from birdmb._typing import BoolArray, FloatArray, IntArray
-from birdmb.aerodynamics.prescribed import driven, driven_at
+from birdmb.aerodynamics.prescribed import driver_motion, driver_motion_along
 from birdmb.errors import StateError
 from birdmb.models.compiled_calls import COMPILED, calls_compiled_code
 from birdmb.models.determinacy import refuse_undetermined
@@ -18,7 +18,7 @@ from birdmb.models.failures import overflow_told, refuse_runaway, wing_misplaced
 from birdmb.models.flight import Flight
 from birdmb.models.gusts import Gust
 from birdmb.models.implicit import integrate_implicitly
-from birdmb.models.instants import Instant, Instants
+from birdmb.models.instants import DriverState, Instants
 from birdmb.models.integration import Integration, Integrator, integration_for
 from birdmb.models.loads import LoadsAlong
 from birdmb.models.multibody_kernel import body_velocity, tree_forces
@@ -28,7 +28,7 @@ from birdmb.models.rigid import RigidModel
 from birdmb.models.springs import has_two_sides, spring_torques_along, springs_of
 from birdmb.models.stepped_cycle import SteppedCycle
 from birdmb.models.tree_rates import TreeRates
-from birdmb.models.wing_model import BODY_SCALE, BODY_STATES, BODY_UNITS, WingModel
+from birdmb.models.wing_model import BODY_SCALE, BODY_STATES, BODY_UNITS, BirdModel
 from birdmb.topology import Bird
 from birdmb.wing.chain import joints_turning_the_whole
 from birdmb.wing.shape import WingShape
@@ -37,7 +37,7 @@ from birdmb.wing.stacked import StackedShapes
 _JOINT_SCALE = (0.5, 10.0)  # rad, rad/s
 
 
-class TreeModel(WingModel):
+class TreeModel(BirdModel):
     """A bird as one kinematic tree of body and wings, in flight or held.
 
     The states are the body's, if it is free, then angle (rad) and rate (rad/s) of each compliant
@@ -73,14 +73,14 @@ class TreeModel(WingModel):
         self._compliant = np.array(compliant + [True] * len(hinges), dtype=bool)
         self._right_wing = slice(BODY_COORDINATES, BODY_COORDINATES + self._compliant.size)
         self._springs = springs_of(bird)
-        self.turning = joints_turning_the_whole(self.wing)
-        shaping = np.flatnonzero(self._compliant[self.turning :]) + self.turning
+        self.rigid_joint_count = joints_turning_the_whole(self.wing)
+        shaping = np.flatnonzero(self._compliant[self.rigid_joint_count :]) + self.rigid_joint_count
         self.prescribed = self._follow_drivers()
         self._instants = Instants(
-            bird, self.wing, self.discretisation, self.turning, shaping.tolist()
+            bird, self.wing, self.discretisation, self.rigid_joint_count, shaping.tolist()
         )
         self._tree = TreeRates(
-            bird, self.wing, self.turning, self.airframe, self.prescribed, self._instants
+            bird, self.wing, self.rigid_joint_count, self.airframe, self.prescribed, self._instants
         )
         self._refuse_undetermined()
         self._exudyn = ExudynBird(bird, self._forces, self.prescribed, self.driver_accelerations)
@@ -137,7 +137,7 @@ class TreeModel(WingModel):
         self, times: FloatArray, states: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
         """Angles and rates (K, A) of joints and hinges at `times` (K,) s in states (K, n)."""
-        angles, rates, _ = driven_at(self.wing, times)
+        angles, rates, _ = driver_motion_along(self.wing, times)
         angles[:, self._compliant] = states[:, self._body_states :: 2]
         rates[:, self._compliant] = states[:, self._body_states + 1 :: 2]
         return angles, rates
@@ -225,7 +225,7 @@ class TreeModel(WingModel):
         mass, bias = self._tree.inertia.at(q, v)
         torques = loads.stack.joint_torques + self._spring_torques_along(times, states)
         body = body_forces(loads.stack.force, loads.stack.moment, q[:, 2])
-        _, _, driving = driven_at(self.wing, times)
+        _, _, driving = driver_motion_along(self.wing, times)
         given = np.hstack([np.zeros((times.size, BODY_COORDINATES)), driving, driving])
         with overflow_told(self.bird, f"the acceleration at t = {times[0]:.4g} s"):
             left = bias - np.hstack([body, torques, torques])
@@ -233,7 +233,7 @@ class TreeModel(WingModel):
 
     def _spring_torques_along(self, times: FloatArray, states: FloatArray) -> FloatArray:
         angles, rates = self.joint_motion_along(times, states)
-        driver_angles, driver_rates, _ = driven_at(self.wing, times)
+        driver_angles, driver_rates, _ = driver_motion_along(self.wing, times)
         return spring_torques_along(self._springs, angles - driver_angles, rates - driver_rates)
 
     def actuator_torques_along(
@@ -263,7 +263,7 @@ class TreeModel(WingModel):
 
     def guess_along(self, times: FloatArray) -> FloatArray:
         """A guess (K, n) of a limit cycle at `times` (K,) s: `driven_state` at each."""
-        angles, rates, _ = driven_at(self.wing, times)
+        angles, rates, _ = driver_motion_along(self.wing, times)
         guess = np.empty((times.size, len(self.state_names)))
         if self._body_states:
             guess[:, : self._body_states] = self._trim
@@ -285,7 +285,7 @@ class TreeModel(WingModel):
         """Raise `TopologyError` if the mass matrix at t = 0 leaves a compliant joint at will."""
         if not self._compliant.any():
             return
-        angles, _, _ = driven(self.wing, 0.0)
+        angles, _, _ = driver_motion(self.wing, 0.0)
         q = np.concatenate([np.zeros(BODY_COORDINATES), angles, angles])[None, :]
         (mass,), _ = self._tree.inertia.at(q, np.zeros_like(q))
         free = ~self.prescribed
@@ -322,7 +322,7 @@ class TreeModel(WingModel):
         u, w = body_velocity(q[2], v[0], v[1])
         return self._own([u, w, v[2], q[2]], q[joints], v[joints])
 
-    def instant(self, t: float) -> Instant:
+    def instant(self, t: float) -> DriverState:
         """What time t (s) alone determines."""
         return self._instants.at(t)
 
@@ -334,7 +334,7 @@ class TreeModel(WingModel):
             forces, clearance = tree_forces(
                 self.wing,
                 instant.shape or self._shape(t, q, v),
-                self.turning,
+                self.rigid_joint_count,
                 self.airframe,
                 self._springs,
                 instant.angles,
@@ -350,7 +350,7 @@ class TreeModel(WingModel):
     def _shape(self, t: float, q: FloatArray, v: FloatArray) -> WingShape:
         angles, rates = q[self._right_wing], v[self._right_wing]
         if not (np.isfinite(angles).all() and np.isfinite(rates).all()):
-            angles, rates, _ = driven(self.wing, t)  # any will do: there are no forces
+            angles, rates, _ = driver_motion(self.wing, t)  # any will do: there are no forces
         return self._instants.shape(t, angles, rates)
 
     def driver_accelerations(self, t: float) -> FloatArray:

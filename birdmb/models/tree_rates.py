@@ -22,7 +22,7 @@ class TreeRates:
     Args:
         bird: the bird.
         wing: its wing.
-        turning: how many joints at the shoulder turn the wing as a whole.
+        rigid_joint_count: how many joints at the shoulder turn the wing as a whole.
         frame: constants of the air, tail and body.
         prescribed: which coordinates (c,) of the tree follow a given motion.
         instants: what time alone determines of the wing.
@@ -32,14 +32,16 @@ class TreeRates:
         self,
         bird: Bird,
         wing: WingArrays,
-        turning: int,
+        rigid_joint_count: int,
         frame: Airframe,
         prescribed: BoolArray,
         instants: Instants,
     ) -> None:
-        self._bird, self._turning, self._instants = bird, turning, instants
+        self._bird, self._rigid_joint_count, self._instants = bird, rigid_joint_count, instants
         right = prescribed[: (prescribed.size + BODY_COORDINATES) // 2]
-        self._constants = Constants(wing, tree_links(bird), frame, springs_of(bird), right, turning)
+        self._constants = Constants(
+            wing, tree_links(bird), frame, springs_of(bird), right, rigid_joint_count
+        )
         self.inertia = TreeInertia(bird)
 
     def accelerations(self, times: FloatArray, motion: Motion) -> FloatArray:
@@ -55,7 +57,7 @@ class TreeRates:
         instants = self._instants.stacked(distinct)
         shapes, shape_of = instants.shapes, time_of
         if shapes is None:
-            alike = groups_of(time_of, motion.angles[:, self._turning :])
+            alike = groups_of(time_of, motion.angles[:, self._rigid_joint_count :])
             first, shape_of = alike.first, alike.of
             shapes = self._instants.shapes(times[first], motion.angles[first], motion.rates[first])
         drivers = Drivers(instants.angles, instants.rates, instants.accelerations)

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.airframe import airframe
 from birdmb.aerodynamics.elements import place_elements
-from birdmb.aerodynamics.prescribed import driven_at
+from birdmb.aerodynamics.prescribed import driver_motion_along
 from birdmb.errors import ArgumentError, StateError
 from birdmb.models.failures import lifting_line_lost, overflow_told, wing_misplaced
 from birdmb.models.flight import Flight
@@ -30,7 +30,7 @@ BODY_STATES, BODY_UNITS, BODY_SCALE = PLANAR.states, PLANAR.units, PLANAR.scale
 _ANGLES = ("phi", "theta")
 
 
-class WingModel(ABC):
+class BirdModel(ABC):
     """A bird with the loads of its wings; the first states are the body's, see `Motion`.
 
     Args:
@@ -43,7 +43,7 @@ class WingModel(ABC):
     state_units: tuple[str, ...]
     motion: Motion = PLANAR
     # How many joints at the shoulder are left out of the wing's shape: they turn it as a whole.
-    turning = 0
+    rigid_joint_count = 0
 
     def __init__(
         self, bird: Bird, *, steps_per_beat: int | None = None, gust: Gust | None = None
@@ -115,7 +115,7 @@ class WingModel(ABC):
     def wing_area(self) -> float:
         """Area of both wings on their drivers at t = 0, m2; raises `StateError` without one."""
         start = np.zeros(1)
-        angles, rates, _ = driven_at(self.wing, start)
+        angles, rates, _ = driver_motion_along(self.wing, start)
         shapes = wing_shapes(self.wing, angles, rates, *self.discretisation)
         if not shapes.converged[0]:
             raise lifting_line_lost(self.bird, 0.0, angles[0])
@@ -140,7 +140,7 @@ class WingModel(ABC):
         self, times: FloatArray, _states: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
         """As `joint_motion`, each (K, A), at `times` (K,) s in states (K, n)."""
-        angles, rates, _ = driven_at(self.wing, times)
+        angles, rates, _ = driver_motion_along(self.wing, times)
         return angles, rates
 
     def actuator_torques(self, t: float, x: npt.ArrayLike) -> FloatArray:
@@ -182,7 +182,7 @@ class WingModel(ABC):
                 self.wing,
                 shapes,
                 shape_of,
-                self.turning,
+                self.rigid_joint_count,
                 self.airframe,
                 angles,
                 rates,

@@ -93,7 +93,7 @@ class CollocationEquations:
     latest: _Latest = field(default_factory=_Latest, repr=False, compare=False)
 
     # One Jacobian costs 2 n residuals where it is taken by differences, and an LU anyway.
-    dear_jacobian = True
+    expensive_jacobian = True
 
     def on_nodes(self, nodes: int, u: FloatArray) -> tuple[CollocationEquations, FloatArray]:
         """The same equations and unknowns on other nodes."""

@@ -115,7 +115,7 @@ class Deflated:
     known: tuple[Known, ...]
     repeats: FloatArray
 
-    dear_jacobian = True
+    expensive_jacobian = True
 
     def residual(self, u: FloatArray) -> FloatArray:
         """Residual (N n,) or (N n + 1,), deflated; `StateError` where it is not defined."""

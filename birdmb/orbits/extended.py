@@ -59,7 +59,7 @@ class ExtendedEquations(ABC):
 
     @property
     @abstractmethod
-    def dear_jacobian(self) -> bool:
+    def expensive_jacobian(self) -> bool:
         """As of the orbit's equations."""
 
     @abstractmethod

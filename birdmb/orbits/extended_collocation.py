@@ -55,7 +55,7 @@ class ExtendedCollocation(ExtendedEquations):
     latest: LatestJacobians = field(default_factory=LatestJacobians, repr=False, compare=False)
 
     method: Literal["collocation"] = "collocation"
-    dear_jacobian = True
+    expensive_jacobian = True
 
     def excess(self, iterations: tuple[Iteration, ...]) -> int:
         """By how many steps more than five, most of which take the Jacobian of the first."""

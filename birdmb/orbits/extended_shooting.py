@@ -31,7 +31,7 @@ class ExtendedShooting(ExtendedEquations):
     method: Literal["shooting"] = "shooting"
 
     @property
-    def dear_jacobian(self) -> bool:
+    def expensive_jacobian(self) -> bool:
         """As of the shooting equations."""
         return self.jacobian_method == "finite-differences"
 

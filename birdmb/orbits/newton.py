@@ -44,7 +44,7 @@ class Equations(Protocol):
         """Derivative (N, N) of the residual."""
 
     @property
-    def dear_jacobian(self) -> bool:
+    def expensive_jacobian(self) -> bool:
         """Whether a Jacobian costs many residuals, so that an old one is worth a try."""
 
     def start_and_period(self, u: FloatArray) -> tuple[FloatArray, float]:
@@ -222,7 +222,7 @@ class _Newton:
     ) -> None:
         self._equations, self._shortest = equations, shortest_damping
         self._broyden: _Broyden | None = None
-        if first_jacobian is not None and equations.dear_jacobian:
+        if first_jacobian is not None and equations.expensive_jacobian:
             # One that is singular says nothing about the equations at hand.
             with suppress(np.linalg.LinAlgError):
                 self._broyden = _Broyden(factorise(first_jacobian)[0])
@@ -243,7 +243,7 @@ class _Newton:
             below = (1 - _SUFFICIENT_DECREASE * damping) * point.norm
             trial = _try(self._equations, point.u + damping * direction, below)
             if trial is not None:
-                if damping == 1 and self._equations.dear_jacobian:
+                if damping == 1 and self._equations.expensive_jacobian:
                     self._broyden = _Broyden(solved)
                     self._broyden.taken(direction)
                 return _Step(trial, damping)

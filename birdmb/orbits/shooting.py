@@ -45,7 +45,7 @@ class ShootingEquations:
         return u.reshape(-1, len(scale)) * scale, period
 
     @property
-    def dear_jacobian(self) -> bool:
+    def expensive_jacobian(self) -> bool:
         """Differences cost 2 n flows for each segment, variational equations about one."""
         return self.segments.jacobian_method == "finite-differences"
 

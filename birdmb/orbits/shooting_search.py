@@ -166,7 +166,7 @@ def _first_jacobian(
             f"jacobian_guess must hold finite values of shape ({m}, {n}, {n}), not of "
             f"{factors.shape}."
         )
-    return equations.assemble(points, period, factors) if equations.dear_jacobian else None
+    return equations.assemble(points, period, factors) if equations.expensive_jacobian else None
 
 
 def period_or_guess(model: Model, period_guess: float | None) -> tuple[bool, float]:

@@ -10,18 +10,24 @@ from birdmb.studies.scaling import ScaledBird, scale_bird
 from birdmb.studies.tail import stability_openings, tail_study, within_rules
 from birdmb.studies.trim import Trim, TrimGuess, trim_flight
 from birdmb.studies.tunnel import tunnel_and_free_flight
-from birdmb.studies.validity import Excess, Overlap, TailExcess, Validity, assess_validity
+from birdmb.studies.validity import (
+    Overlap,
+    TailViolation,
+    Validity,
+    ValidityViolation,
+    assess_validity,
+)
 
 __all__ = [
-    "Excess",
     "ModelFactory",
     "Overlap",
     "ScaledBird",
-    "TailExcess",
+    "TailViolation",
     "Trim",
     "TrimError",
     "TrimGuess",
     "Validity",
+    "ValidityViolation",
     "assess_validity",
     "bird_branch",
     "flight_observables",

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.aerodynamics.prescribed import driven
+from birdmb.aerodynamics.prescribed import driver_motion
 from birdmb.errors import StateError
 from birdmb.models.natural_oscillation import (
     NaturalOscillation,
@@ -92,7 +92,9 @@ def _on_overlap(bird: Bird, model: RigidModel, phases: FloatArray) -> Iterator[s
     names += ["the shoulder", "the elbow", "the wrist", "the tip of the hand"]
     places = []
     for phase in phases:
-        outline = wing_outline(model.wing, driven(model.wing, phase * bird.period)[0], numbers)
+        outline = wing_outline(
+            model.wing, driver_motion(model.wing, phase * bird.period)[0], numbers
+        )
         places.append([*outline.feathers[:, 1, 1], *outline.bones[:, 1]])
     across = np.array(places)
     k, i = np.unravel_index(np.argmin(across), across.shape)

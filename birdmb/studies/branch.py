@@ -13,7 +13,7 @@ import numpy as np
 from birdmb._typing import FloatArray
 from birdmb.errors import ArgumentError, BirdmbError, StateError, TopologyError
 from birdmb.models import FlightCycle, MultibodyModel
-from birdmb.models.wing_model import WingModel
+from birdmb.models.wing_model import BirdModel
 from birdmb.orbits import (
     Bifurcation,
     Branch,
@@ -27,7 +27,7 @@ from birdmb.studies.relevance import check_relevant
 from birdmb.studies.validity import Validity, assess_validity
 from birdmb.topology import Bird
 
-BirdModel: TypeAlias = Callable[..., WingModel]
+FamilyModel: TypeAlias = Callable[..., BirdModel]
 """Makes a model of a bird: `MultibodyModel`, `RigidModel`, or either with options bound."""
 
 _SAMPLES = 9
@@ -50,7 +50,7 @@ def bird_branch(
     bird: Bird,
     name: str,
     parameter_range: tuple[float, float],
-    model: BirdModel = MultibodyModel,
+    model: FamilyModel = MultibodyModel,
     *,
     method: SearchMethod = "auto",
     steps_per_beat: int | None = None,
@@ -152,7 +152,7 @@ def bird_branch(
     )
 
 
-def _member(bird: Bird, name: str, model: BirdModel, value: float) -> WingModel:
+def _member(bird: Bird, name: str, model: FamilyModel, value: float) -> BirdModel:
     return model(bird.with_values({name: value}))
 
 
@@ -167,12 +167,12 @@ def _integration(
     bird: Bird,
     name: str,
     parameter_range: tuple[float, float],
-    model: BirdModel,
+    model: FamilyModel,
     steps_per_beat: int | None,
 ) -> dict[str, Any]:
     """Options of the model that meet its needs over the range, wherever it has an answer."""
     options = {} if steps_per_beat is None else {"steps_per_beat": steps_per_beat}
-    members: list[WingModel] = []
+    members: list[BirdModel] = []
     failure: BirdmbError | None = None
     for value in np.linspace(*parameter_range, _SAMPLES):
         try:

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError, StateError
 from birdmb.models import FlightCycle
-from birdmb.models.wing_model import WingModel
+from birdmb.models.wing_model import BirdModel
 from birdmb.orbits import LimitCycle, Model, find_limit_cycle
 from birdmb.orbits.collocation import FIRST_NODES
 from birdmb.orbits.collocation_search import nodes_shown
@@ -32,11 +32,11 @@ class KeptModels:
         model_at: makes one.
     """
 
-    def __init__(self, model_at: Callable[[FloatArray], WingModel]) -> None:
+    def __init__(self, model_at: Callable[[FloatArray], BirdModel]) -> None:
         self._model_at = model_at
-        self._kept: dict[tuple[float, ...], WingModel] = {}
+        self._kept: dict[tuple[float, ...], BirdModel] = {}
 
-    def __call__(self, point: FloatArray) -> WingModel:
+    def __call__(self, point: FloatArray) -> BirdModel:
         """The model; raises what making it raises."""
         key = tuple(point.tolist())
         if key not in self._kept:

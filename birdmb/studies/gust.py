@@ -43,7 +43,7 @@ def gust_response(
         cycle: limit cycle of a bird, stable or not.
         gust: velocity of the air (m/s, forwards, upwards and, of a bird in space, to the right)
             at a time (s): `GaussianGust`, `CosineGust`, `StepGust`, or any function; times at which
-            it or its slopes jump are looked for in its attribute `breaks`.
+            it or its slopes jump are looked for in its attribute `discontinuities`.
         periods: beats to follow it, from the cycle's start time on.
         samples: times per beat.
 
@@ -138,8 +138,8 @@ def _flown(cycle: FlightCycle, gust: Gust, times: FloatArray) -> tuple[FloatArra
 
 
 def _pieces(gust: Gust, first: float, last: float, others: FloatArray) -> list[tuple[float, float]]:
-    breaks = np.append(np.array(getattr(gust, "breaks", ()), dtype=float), others)
-    inside = breaks[(breaks > first) & (breaks < last)]
+    discontinuities = np.append(np.array(getattr(gust, "discontinuities", ()), dtype=float), others)
+    inside = discontinuities[(discontinuities > first) & (discontinuities < last)]
     ends = np.unique(np.concatenate([[first], inside, [last]]))
     return list(pairwise(ends.tolist()))
 

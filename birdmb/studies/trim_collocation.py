@@ -44,7 +44,7 @@ class CollocatedTrim:
         nodes: number N of nodes, odd.
     """
 
-    dear_jacobian = True
+    expensive_jacobian = True
 
     def __init__(
         self,

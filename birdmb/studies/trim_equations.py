@@ -14,7 +14,7 @@ import scipy.sparse as sp
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
 from birdmb.models.flight_cycle import world_velocity
-from birdmb.models.wing_model import WingModel
+from birdmb.models.wing_model import BirdModel
 from birdmb.orbits.newton import solve
 from birdmb.studies.cycles import KeptModels
 
@@ -37,7 +37,7 @@ class TrimEquations:
         targets: "climb_rate" and perhaps "speed", m/s.
     """
 
-    dear_jacobian = True
+    expensive_jacobian = True
 
     def __init__(
         self,
@@ -101,7 +101,7 @@ class TrimEquations:
         """Largest residual."""
         return float(np.abs(residual).max())
 
-    def _unpacked(self, u: FloatArray) -> tuple[FloatArray, FloatArray, WingModel]:
+    def _unpacked(self, u: FloatArray) -> tuple[FloatArray, FloatArray, BirdModel]:
         n = u.size - self._low.size
         if ((u[n:] < 0.0) | (u[n:] > 1.0)).any():
             raise StateError("the parameters left their bounds.")

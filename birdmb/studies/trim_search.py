@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError, StateError
-from birdmb.models import FlightCycle, WingModel
+from birdmb.models import BirdModel, FlightCycle
 from birdmb.models.wing_model import BODY_STATES
 from birdmb.orbits import FloquetResult, NotSmoothError
 from birdmb.orbits.collocation_search import collocated_cycle, guessed_path, nodes_shown
@@ -159,8 +159,8 @@ class TrimSearch:
             path[:, : len(BODY_STATES)] = state[: len(BODY_STATES)]
         return path
 
-    def _made_at(self, point: FloatArray) -> WingModel:
-        return cast("WingModel", self._model(self.bird.with_values(self.named(point))))
+    def _made_at(self, point: FloatArray) -> BirdModel:
+        return cast("BirdModel", self._model(self.bird.with_values(self.named(point))))
 
     def forward_flight(self) -> FloatArray:
         """State (n,) of a level body that flies as fast as its wings need to carry it."""

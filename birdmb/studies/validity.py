@@ -41,7 +41,7 @@ LARGEST_TAIL_ANGLE = float(np.radians(5.0))
 
 
 @dataclass(frozen=True)
-class Excess:
+class ValidityViolation:
     """One way in which a flight leaves the model's validity, and where and when it does so most.
 
     `str()` of it is a sentence.
@@ -86,7 +86,7 @@ class Excess:
 
 
 @dataclass(frozen=True)
-class TailExcess:
+class TailViolation:
     """How a flight leaves the validity of the tail's slender-wing lift; `str()` is a sentence."""
 
     value: float
@@ -159,7 +159,7 @@ class Validity:
     reduced_frequency: float
     largest_tail_angle: float
     largest_overlap: float
-    excesses: tuple[Excess | TailExcess | Overlap, ...]
+    excesses: tuple[ValidityViolation | TailViolation | Overlap, ...]
     cycle: FlightCycle
 
     @cached_property
@@ -208,7 +208,7 @@ def assess_validity(
         largest_reduced_frequency: largest k of the whole flight.
         largest_tail_angle: largest modulus of the tail's angle of attack, rad.
         largest_overlap: largest part of the wing's area across the plane of symmetry. (A lifting
-            line that crosses it has no loads and no cycle: `WingModel.loads`.)
+            line that crosses it has no loads and no cycle: `BirdModel.loads`.)
     """
     model = cycle.bird_model
     frequency = model.bird.gait.frequency
@@ -219,7 +219,9 @@ def assess_validity(
     span = cycle.beat.loads_along.stack.width[:-1].sum(axis=1)
     mean_chord = float((area.sum(axis=1) / span).mean())
     k = np.pi * frequency * mean_chord / cycle.mean_speed
-    excesses: list[Excess | TailExcess | Overlap] = list(_beyond_angle(data, largest_angle))
+    excesses: list[ValidityViolation | TailViolation | Overlap] = list(
+        _beyond_angle(data, largest_angle)
+    )
     if k > largest_reduced_frequency:
         local = data["reduced_frequency"].values
         beyond = local > largest_reduced_frequency
@@ -229,7 +231,7 @@ def assess_validity(
         )
     tail_angle = np.abs(cycle.beat.tail_angle[:-1])
     if (tail_angle > largest_tail_angle).any():
-        excesses.append(TailExcess(*_worst_of_beat(cycle, tail_angle, largest_tail_angle)))
+        excesses.append(TailViolation(*_worst_of_beat(cycle, tail_angle, largest_tail_angle)))
     angles, _ = model.joint_motion_along(cycle.beat.times[:-1], cycle.beat.states[:-1])
     overlap = areas_across(model.wing, angles, model.bird.wing.resolved_discretisation)
     if (overlap > largest_overlap).any():
@@ -293,7 +295,7 @@ def _span_positions(position: FloatArray, width: FloatArray) -> tuple[FloatArray
     return along, np.maximum(width.sum(axis=1), along[:, -1])
 
 
-def _beyond_angle(data: xr.Dataset, limit: float) -> Iterator[Excess]:
+def _beyond_angle(data: xr.Dataset, limit: float) -> Iterator[ValidityViolation]:
     """The worst place of either sign: too large upwards and downwards are two matters."""
     angle = np.where(data["judged"], data["effective_angle_of_attack"], 0.0)
     for sign in (1.0, -1.0):
@@ -310,12 +312,12 @@ def _excess(
     beyond: BoolArray,
     value: float,
     limit: float,
-) -> Excess:
+) -> ValidityViolation:
     # The end of the beat is its beginning: it counts once.
     area = data["area"].values[:-1]
     row, element = np.unravel_index(np.argmax(badness[:-1]), badness[:-1].shape)
     at = data.isel(time=int(row), element=int(element))
-    return Excess(
+    return ValidityViolation(
         quantity=quantity,
         value=float(value),
         limit=limit,

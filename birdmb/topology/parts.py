@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from functools import lru_cache
 from types import MappingProxyType
 from typing import Annotated, Any, ClassVar, Literal, Self
 
@@ -30,10 +29,10 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from birdmb._typing import FloatArray
+from birdmb.topology.inertia import Tensor, from_diagonal, moments_by_key, possible_inertia
 from birdmb.topology.messages import BRANCH, problem, shown
 from birdmb.topology.names import Label
 from birdmb.topology.numbers import (
-    LEAST_INERTIA,
     Angle,
     Area,
     Coefficient,
@@ -59,11 +58,8 @@ from birdmb.topology.numbers import (
 Bone = Literal["humerus", "forearm", "hand"]
 BONES: tuple[Bone, ...] = ("humerus", "forearm", "hand")  # from the shoulder outwards
 
-_Row = tuple[Moment, Moment, Moment]
-Tensor = tuple[_Row, _Row, _Row]
 Shares = tuple[tuple[str, float], ...]
 
-_ROUND_OFF = 1e-9  # relative; inertia tensors are often typed with few digits
 _NO_DIRECTION = 1e-100  # of its square little is left
 _ALONG_THE_BONE = 1e-6  # rad; a right angle in degrees is none to the last bit
 
@@ -149,7 +145,7 @@ class Body(Part):
         tensor = given.pop("inertia")
         if "inertia_yy" in given:
             raise problem("given twice, as inertia and inertia_yy; keep one", "inertia")
-        return given | _moments(tensor)
+        return given | moments_by_key(tensor)
 
     @property
     def missing_moments(self) -> tuple[str, ...]:
@@ -242,78 +238,16 @@ class Wing(Part):
         return PRESETS["converged"].model_copy(update={"elements": self.discretisation})
 
 
-def _from_diagonal(value: Any) -> Any:
-    if not isinstance(value, list | tuple) or any(isinstance(row, list | tuple) for row in value):
-        return value
-    if len(value) != 3:
-        raise problem(f"must be three moments or a 3x3 tensor, not {shown(value)}")
-    return [[moment if i == j else 0.0 for j in range(3)] for i, moment in enumerate(value)]
-
-
-def _moments(value: Any) -> dict[str, Any]:
-    """The body's moments of inertia by key, from three of them or a 3x3 tensor."""
-    rows = _from_diagonal(value)
-    try:
-        tensor = np.array(rows, dtype=float)
-    except (TypeError, ValueError):
-        tensor = np.empty(0)
-    if tensor.shape != (3, 3):
-        raise problem(f"must be three moments or a 3x3 tensor, not {shown(value)}", "inertia")
-    if tensor[0, 1] or tensor[1, 0] or tensor[1, 2] or tensor[2, 1] or tensor[0, 2] != tensor[2, 0]:
-        raise problem(
-            f"{shown(value)} is not that of a body with a plane of symmetry: of the elements off "
-            "the diagonal only xz and zx, equal to each other, may differ from 0",
-            "inertia",
-        )
-    return {
-        "inertia_xx": rows[0][0],
-        "inertia_yy": rows[1][1],
-        "inertia_zz": rows[2][2],
-        "inertia_xz": rows[0][2],
-    }
-
-
-# Of birds that are varied by the thousand, the same few tensors are checked again and again.
-@lru_cache(maxsize=64)
-def _possible_inertia(inertia: Tensor) -> Tensor:
-    tensor = np.array(inertia)
-    round_off = _ROUND_OFF * np.abs(tensor).max()
-    if np.abs(tensor - tensor.T).max() > round_off:
-        raise problem(f"{shown(inertia)} is not symmetric; an inertia tensor must be")
-    if 0 < np.abs(tensor).max() < LEAST_INERTIA:
-        raise problem(
-            f"{shown(inertia)} kg m2 is next to nothing; 0 makes the segment a point mass"
-        )
-    if why := impossible_moments(tensor):
-        raise problem(why)
-    return inertia
-
-
-def impossible_moments(tensor: FloatArray) -> str:
-    """Why no body has this inertia tensor (3, 3), kg m2; empty if one may."""
-    round_off = _ROUND_OFF * np.abs(tensor).max()
-    moments = np.linalg.eigvalsh(tensor)[::-1]
-    listed = ", ".join(f"{moment:.6g}" for moment in moments)
-    if moments[-1] < -round_off:
-        return f"principal moments {listed} kg m2 must not be negative"
-    if moments[0] > moments[1] + moments[2] + round_off:
-        return (
-            f"principal moments {listed} kg m2 break the triangle inequality (no body has them); "
-            "each must be at most the sum of the other two"
-        )
-    return ""
-
-
 class Segment(Part):
     """A rigid segment of the wing; zero inertia makes it a point mass."""
 
     length: Length = Field(description="length of the bone, m")
     mass: MassOrNone = Field(description="mass of the segment of one wing, kg")
-    inertia: Annotated[
-        Tensor, BeforeValidator(_from_diagonal), AfterValidator(_possible_inertia)
-    ] = Field(
-        description="inertia about the segment's centre of mass, kg m2: three moments about "
-        "x, y, z or a 3x3 tensor"
+    inertia: Annotated[Tensor, BeforeValidator(from_diagonal), AfterValidator(possible_inertia)] = (
+        Field(
+            description="inertia about the segment's centre of mass, kg m2: three moments about "
+            "x, y, z or a 3x3 tensor"
+        )
     )
     centre_of_mass: tuple[Coordinate, Coordinate, Coordinate] = Field(
         default_factory=lambda validated: (0.0, validated["length"] / 2, 0.0),

@@ -1,5 +1,7 @@
 """The right wing as plain arrays: what the compiled kernels read of a bird."""
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

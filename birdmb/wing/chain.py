@@ -1,5 +1,7 @@
 """Joint axes and bone origins of the right wing, for torques about the joints."""
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

@@ -6,6 +6,8 @@ return is h times its exact time derivative (complex step; Squire and Trapp, SIA
 Angles (A,) are those of the joints, then those of the feathers' hinges.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

@@ -4,6 +4,8 @@ A load on the line has the generalised force load . (velocity per rate of a hing
 by virtual work. These velocities are exact derivatives, by the complex step of the wing's edges.
 """
 
+from __future__ import annotations
+
 import numpy as np
 
 from birdmb._kernels import kernel

@@ -13,6 +13,8 @@ which are then doubled, so the line is a function of the joint angles alone, as 
 are.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

@@ -11,6 +11,8 @@ needs a condition stay parallel to each other: as the last legs of the edges are
 the one solution of the equation in them which is smooth.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

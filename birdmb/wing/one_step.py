@@ -5,6 +5,8 @@ points by a quarter of one step towards orthogonality and walks along the result
 the line nor its rates are smooth: use it to compare, not to compute.
 """
 
+from __future__ import annotations
+
 import numpy as np
 
 from birdmb._kernels import kernel

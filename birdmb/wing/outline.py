@@ -1,5 +1,7 @@
 """Points to draw a wing by: edges, bones, feathers, chords and the lifting line."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass

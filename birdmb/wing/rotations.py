@@ -1,5 +1,7 @@
 """Rotations along the joint chain, for real and complex angles."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from birdmb._kernels import kernel

@@ -5,6 +5,8 @@ corner k. Its tangent then turns from one leg to the next by a smooth step, and 
 legs only within eps_k of the corner. The bump is (1 - x^2)^2, so the result is C3.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

@@ -5,6 +5,8 @@ at the wing tip), so N elements take 2 N stations; see `birdmb.aerodynamics.elem
 over the body.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np
@@ -27,7 +29,9 @@ class WingShape(NamedTuple):
     normal: FloatArray  # (N, 3) up
     span_direction: FloatArray  # (N, 3) outwards
     chord: FloatArray  # (N,) m
-    beyond: FloatArray  # (N, 2) fraction of the element's load carried beyond the elbow, the wrist
+    distal_fraction: (
+        FloatArray  # (N, 2) fraction of the element's load carried beyond the elbow, the wrist
+    )
     converged: bool  # the lifting line was found, and its chords point backwards along the humerus
     hinge_velocity: FloatArray  # (H, N, 3) m, of the control points per rate of each hinge
 
@@ -45,7 +49,7 @@ def _cross(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
 
 
 @kernel
-def _carried_beyond(leading: FloatArray, edge: FloatArray, rounding: float) -> FloatArray:
+def _distal_fractions(leading: FloatArray, edge: FloatArray, rounding: float) -> FloatArray:
     """Fractions (N, 2) of each element's load that the bones beyond elbow and wrist carry.
 
     An element belongs to the bone abreast of its leading-edge point; around the corners the share
@@ -55,7 +59,7 @@ def _carried_beyond(leading: FloatArray, edge: FloatArray, rounding: float) -> F
     for i in range(legs.size):
         legs[i] = _length(edge[i + 1] - edge[i])
     n = leading.shape[0] // 2
-    beyond = np.empty((n, 2))
+    distal_fraction = np.empty((n, 2))
     reached = 0.0
     for j in range(2 * n):
         if j > 0:
@@ -68,8 +72,8 @@ def _carried_beyond(leading: FloatArray, edge: FloatArray, rounding: float) -> F
             for k in range(2):
                 corner += legs[k]
                 width = rounding * legs[k] * legs[k + 1] / (legs[k] + legs[k + 1])
-                beyond[j // 2, k] = smooth_step((reached - corner) / width)
-    return beyond
+                distal_fraction[j // 2, k] = smooth_step((reached - corner) / width)
+    return distal_fraction
 
 
 def wing_shape(
@@ -132,7 +136,7 @@ def shape_of_edges(
         shape.normal,
         shape.span_direction,
         shape.chord,
-        shape.beyond,
+        shape.distal_fraction,
         shape.converged and sound,
         shape.hinge_velocity,
     )
@@ -148,7 +152,7 @@ def _no_shape(wing: WingArrays, elements: int) -> WingShape:
         normal=vectors,
         span_direction=vectors,
         chord=vectors[:, 0].copy(),
-        beyond=np.zeros((elements, 2)),
+        distal_fraction=np.zeros((elements, 2)),
         converged=False,
         hinge_velocity=np.zeros((wing.offset.size - wing.segment.size, elements, 3)),
     )
@@ -187,7 +191,7 @@ def _assemble(
             for i in range(3):
                 up[i] /= size
         _cross(up, c, span[e])
-    beyond = _carried_beyond(pairs.leading.real.copy(), edge.real.copy(), rounding)
+    distal_fraction = _distal_fractions(pairs.leading.real.copy(), edge.real.copy(), rounding)
     velocity = line[0::2].imag / COMPLEX_STEP
     return WingShape(
         line.real.copy(),
@@ -196,7 +200,7 @@ def _assemble(
         normal,
         span,
         chord,
-        beyond,
+        distal_fraction,
         pairs.converged,
         hinge_velocity,
     )
@@ -225,7 +229,7 @@ def turned(shape: WingShape, R: FloatArray, spin: FloatArray) -> WingShape:
         shape.normal @ R.T,
         shape.span_direction @ R.T,
         shape.chord,
-        shape.beyond,
+        shape.distal_fraction,
         shape.converged,
         hinge_velocity,
     )

@@ -1,5 +1,7 @@
 """Shapes of the wing at many instants, stacked for compiled loops."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -20,7 +22,7 @@ class StackedShapes(NamedTuple):
     normal: FloatArray  # (P, N, 3)
     span_direction: FloatArray  # (P, N, 3)
     chord: FloatArray  # (P, N)
-    beyond: FloatArray  # (P, N, 2)
+    distal_fraction: FloatArray  # (P, N, 2)
     converged: BoolArray  # (P,)
     hinge_velocity: FloatArray  # (P, H, N, 3)
     singly: IntArray  # (M,) angles whose own effect on the velocity is known
@@ -63,7 +65,7 @@ def _made_singly(
         wing_shape(wing, *of_one, elements=elements, rounding=rounding, published=published)
         for of_one in zip(angles, rates, strict=True)
     ]
-    line, velocity, chords, normal, span, chord, beyond, converged, per_hinge = (
+    line, velocity, chords, normal, span, chord, distal_fraction, converged, per_hinge = (
         np.array(arrays) for arrays in zip(*shapes, strict=True)
     )
     return StackedShapes(
@@ -73,7 +75,7 @@ def _made_singly(
         normal,
         span,
         chord,
-        beyond,
+        distal_fraction,
         converged,
         per_hinge,
         moving,
@@ -117,7 +119,7 @@ def _made(
         stack.normal[k] = shape.normal
         stack.span_direction[k] = shape.span_direction
         stack.chord[k] = shape.chord
-        stack.beyond[k] = shape.beyond
+        stack.distal_fraction[k] = shape.distal_fraction
         stack.converged[k] = shape.converged
         stack.hinge_velocity[k] = shape.hinge_velocity
     return stack
@@ -133,7 +135,7 @@ def shape_at(stack: StackedShapes, k: int) -> WingShape:
         stack.normal[k],
         stack.span_direction[k],
         stack.chord[k],
-        stack.beyond[k],
+        stack.distal_fraction[k],
         stack.converged[k],
         stack.hinge_velocity[k],
     )

@@ -10,7 +10,7 @@ from birdmb.aerodynamics.elements import circulation_system, place_elements
 from birdmb.aerodynamics.joints import joint_torques
 from birdmb.aerodynamics.prescribed import (
     at_phase,
-    driven,
+    driver_motion,
     prescribed_wing,
     symmetric_loads,
 )
@@ -127,7 +127,7 @@ def wing(ibis):
 
 
 def placed_at(wing, t, elements=16):
-    angles, rates, _ = driven(wing, t)
+    angles, rates, _ = driver_motion(wing, t)
     return place_elements(wing_shape(wing, angles, rates, elements, 0.5, False), wing.root)
 
 
@@ -251,14 +251,14 @@ def test_the_split_between_bones_moves_no_load(wing):
 
     And all of an element on the hand, or shares of it on each bone, add up to the same.
     """
-    angles, rates, _ = driven(wing, 0.03)
+    angles, rates, _ = driver_motion(wing, 0.03)
     shape = wing_shape(wing, angles, rates, 16, 0.5, False)
     placed = place_elements(shape, wing.root)
     force = element_loads(placed, DENSITY, 0.0, 18.0, -2.0, 0.3).force
     chain = joint_chain(wing, angles)
     torques = [
         joint_torques(wing, chain, placed.position, force, beyond)
-        for beyond in (shape.beyond, np.zeros((16, 2)), np.ones((16, 2)))
+        for beyond in (shape.distal_fraction, np.zeros((16, 2)), np.ones((16, 2)))
     ]
     for other in torques[1:]:
         np.testing.assert_allclose(other[:3], torques[0][:3], rtol=1e-13)

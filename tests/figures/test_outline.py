@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from birdmb.aerodynamics.elements import place_elements
-from birdmb.aerodynamics.prescribed import driven
+from birdmb.aerodynamics.prescribed import driver_motion
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.outline import wing_outline
 from birdmb.wing.shape import wing_shape
@@ -14,7 +14,7 @@ PRESETS = ("converged", "published")
 
 def outline_and_elements(bird, t):
     wing = wing_arrays(bird)
-    angles, rates, _ = driven(wing, t)
+    angles, rates, _ = driver_motion(wing, t)
     numbers = bird.wing.resolved_discretisation
     shape = wing_shape(
         wing, angles, rates, numbers.elements, numbers.rounding, numbers.scheme == "one-step"

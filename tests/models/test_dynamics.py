@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import birdmb
-from birdmb.aerodynamics.prescribed import driven
+from birdmb.aerodynamics.prescribed import driver_motion
 from tests.models.newton_euler import inverse_dynamics, mass_matrix, momentum
 
 BODY = 3
@@ -14,7 +14,7 @@ BODY = 3
 def coordinates(model, t, x):
     """Coordinates and velocities (n,) from a state, written out independently of the model."""
     u, w, q, theta = x[:4]
-    angles, rates, _ = driven(model.wing, t)
+    angles, rates, _ = driver_motion(model.wing, t)
     names = list(model.state_names)
     for j, name in enumerate(model.bird.angle_names):
         if name in names:
@@ -33,7 +33,7 @@ def applied(model, t, x):
     c, s = np.cos(x[3]), np.sin(x[3])
     fx, _, fz = loads.force
     angles, rates = model.joint_motion(t, np.asarray(x))
-    q, v, _ = driven(model.wing, t)
+    q, v, _ = driver_motion(model.wing, t)
     torque = loads.joint_torques.copy()
     for j, joint in enumerate(model.bird.joints):
         if joint.mode == "compliant":
@@ -91,7 +91,7 @@ def test_accelerations_are_those_of_newton_and_euler(ibis, case):
         a, actuators = model.accelerations(t, x)
         compliant = np.array([name in model.state_names for name in bird.angle_names])
         free = np.concatenate([np.ones(BODY, bool), compliant, compliant])
-        prescribed = np.concatenate([np.zeros(BODY), *[driven(model.wing, t)[2]] * 2])
+        prescribed = np.concatenate([np.zeros(BODY), *[driver_motion(model.wing, t)[2]] * 2])
         np.testing.assert_array_equal(a[~free], prescribed[~free])
 
         M = mass_matrix(bird, q)
@@ -149,6 +149,6 @@ def test_driven_inertia_keeps_prescribed_joints_on_their_drivers(ibis):
     model = birdmb.MultibodyModel(ibis)
     x0 = model.initial_guess()
     q, v = model._exudyn.integrate(*model.coordinates(0.0, x0), 0.0, 0.25, 60)
-    angles, rates, _ = driven(model.wing, 0.25)
+    angles, rates, _ = driver_motion(model.wing, 0.25)
     np.testing.assert_allclose(q[BODY : BODY + 6], angles, atol=1e-8)
     np.testing.assert_allclose(v[BODY : BODY + 6], rates, atol=1e-6)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from birdmb import MultibodyModel, RigidModel, TetheredModel, find_limit_cycles, load_bird
-from birdmb.aerodynamics.prescribed import driven_at
+from birdmb.aerodynamics.prescribed import driver_motion_along
 from birdmb.models.starts import steady_states
 
 TOPOLOGIES = Path(__file__).parents[2] / "topologies"
@@ -59,7 +59,7 @@ def test_compliant_joints_start_on_their_drivers_and_swinging(sprung):
     model, times = MultibodyModel(sprung), times_of(sprung)
     paths = list(model.starting_paths(times))
     joint = [joint.name for joint in sprung.joints].index("shoulder.flap")
-    driver = driven_at(model.wing, times)[0][:, joint]
+    driver = driver_motion_along(model.wing, times)[0][:, joint]
     on_driver = [np.allclose(path[:, 4], driver) for path in paths]
     assert on_driver[0]
     assert 0 < sum(on_driver) < len(paths)

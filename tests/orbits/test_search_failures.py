@@ -178,7 +178,7 @@ def test_trajectory_dataset_and_figure():
 class Arctangent:
     """arctan(x) = 0, from which full Newton steps lead away beyond |x| = 1.39."""
 
-    dear_jacobian = False
+    expensive_jacobian = False
 
     def residual(self, u):
         return np.arctan(u)

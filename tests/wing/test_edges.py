@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from birdmb.aerodynamics.prescribed import driven
+from birdmb.aerodynamics.prescribed import driver_motion
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.chain import frame_after, joint_chain
 from birdmb.wing.edges import skeleton, wing_edges
@@ -27,7 +27,7 @@ def wing(ibis):
 def test_edges_are_the_reference_programs(wing):
     reference = np.load(REFERENCE / "geometry.npz")
     for i, t in enumerate(reference["t"]):
-        angles, _, _ = driven(wing, t)
+        angles, _, _ = driver_motion(wing, t)
         leading, trailing = wing_edges(wing, angles + 0j)
         np.testing.assert_allclose(
             leading.real, from_reference_axes(reference["LE_vertices"][i]), atol=1e-14
@@ -39,8 +39,8 @@ def test_edges_are_the_reference_programs(wing):
 
 def test_driver_derivatives(wing):
     t, h = 0.037, 1e-5
-    angles, rates, accelerations = driven(wing, t)
-    before, after = driven(wing, t - h), driven(wing, t + h)
+    angles, rates, accelerations = driver_motion(wing, t)
+    before, after = driver_motion(wing, t - h), driver_motion(wing, t + h)
     np.testing.assert_allclose((after[0] - before[0]) / (2 * h), rates, rtol=1e-6, atol=1e-8)
     np.testing.assert_allclose(
         (after[1] - before[1]) / (2 * h), accelerations, rtol=1e-6, atol=1e-6

@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 from birdmb.aerodynamics.circulation import element_loads
 from birdmb.aerodynamics.elements import place_elements
 from birdmb.aerodynamics.joints import hinge_torques
-from birdmb.aerodynamics.prescribed import driven
+from birdmb.aerodynamics.prescribed import driver_motion
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.edges import feather_ends, skeleton, wing_edges
 from birdmb.wing.shape import wing_shape
@@ -31,13 +31,15 @@ def firm(ibis):
 
 def posed(wing, t):
     """Driven joints with both hinges swinging."""
-    angles, rates, _ = driven(wing, t)
+    angles, rates, _ = driver_motion(wing, t)
     angles[6:], rates[6:] = (0.2, -0.1), (3.0, -5.0)
     return angles, rates
 
 
 def test_drivers_of_hinges_stand_at_their_rest(hinged):
-    for value, expected in zip(driven(hinged, 0.07), ([0.05, 0], [0, 0], [0, 0]), strict=True):
+    for value, expected in zip(
+        driver_motion(hinged, 0.07), ([0.05, 0], [0, 0], [0, 0]), strict=True
+    ):
         np.testing.assert_array_equal(value[6:], expected)
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from birdmb.aerodynamics.prescribed import driven
+from birdmb.aerodynamics.prescribed import driver_motion
 from birdmb.topology import PRESETS
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.chain import frame_after, joint_chain
@@ -25,7 +25,7 @@ def wing(ibis):
 
 
 def edges_at(wing, t):
-    return wing_edges(wing, driven(wing, t)[0] + 0j)
+    return wing_edges(wing, driver_motion(wing, t)[0] + 0j)
 
 
 def test_rounded_polyline_leaves_the_legs_only_near_the_corners():
@@ -79,7 +79,7 @@ def test_velocities_are_the_derivatives_of_the_positions(wing, t, published):
     elements = 8 if published else 32
 
     def controls(when):
-        angles, rates, _ = driven(wing, when)
+        angles, rates, _ = driver_motion(wing, when)
         return wing_shape(wing, angles, rates, elements, ROUNDING, published)
 
     h = 2e-6
@@ -95,7 +95,7 @@ def test_line_is_smooth_in_time(wing):
     """
 
     def velocity(t):
-        angles, rates, _ = driven(wing, t)
+        angles, rates, _ = driver_motion(wing, t)
         return wing_shape(wing, angles, rates, 32, ROUNDING, False).velocity
 
     for t in PHASES:
@@ -121,7 +121,7 @@ def test_published_velocities_are_the_reference_programs(wing):
     """To the reference's central differences, 2e-6 m/s."""
     reference = np.load(REFERENCE / "geometry.npz")
     for i, t in enumerate(reference["t"]):
-        angles, rates, _ = driven(wing, t)
+        angles, rates, _ = driver_motion(wing, t)
         shape = wing_shape(wing, angles, rates, 8, ROUNDING, True)
         np.testing.assert_allclose(
             shape.velocity, from_reference_axes(reference["v_kin"][i, 8:]), atol=2e-6
@@ -130,7 +130,7 @@ def test_published_velocities_are_the_reference_programs(wing):
 
 def test_shoulder_joints_turn_the_shape_as_a_whole(wing):
     """A shape at zero shoulder angles, turned, is the shape at those angles, rates and all."""
-    angles, rates, _ = driven(wing, 0.06)
+    angles, rates, _ = driver_motion(wing, 0.06)
     still_angles, still_rates = angles.copy(), rates.copy()
     still_angles[:3] = still_rates[:3] = 0.0
     still = wing_shape(wing, still_angles, still_rates, 16, ROUNDING, False)
@@ -143,8 +143,8 @@ def test_shoulder_joints_turn_the_shape_as_a_whole(wing):
 
 def test_loads_pass_over_smoothly_from_bone_to_bone(wing):
     for t in PHASES:
-        angles, rates, _ = driven(wing, t)
-        beyond = wing_shape(wing, angles, rates, 64, ROUNDING, False).beyond
+        angles, rates, _ = driver_motion(wing, t)
+        beyond = wing_shape(wing, angles, rates, 64, ROUNDING, False).distal_fraction
         assert (np.diff(beyond, axis=0) >= 0).all()
         assert (beyond[0] == 0).all()
         assert (beyond[-1] == 1).all()

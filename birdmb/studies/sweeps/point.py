@@ -14,7 +14,7 @@ import numpy as np
 
 from birdmb.errors import BirdmbError, OrbitError, StateError
 from birdmb.models import FlightCycle
-from birdmb.models.wing_model import WingModel
+from birdmb.models.wing_model import BirdModel
 from birdmb.orbits import Model, NotSmoothError, find_limit_cycle
 from birdmb.orbits.collocation import FIRST_NODES
 from birdmb.orbits.problem import HasGuessedPath, HasInitialGuess, HasRates
@@ -75,7 +75,7 @@ def _told(error: BaseException) -> str:
 def prepare(bird: Bird, model: ModelFactory) -> None:
     """Load or compile the kernels, along a guess; a bird that cannot is left to its points."""
     with suppress(Exception):
-        flying = cast("WingModel", model(bird))
+        flying = cast("BirdModel", model(bird))
         if isinstance(flying, HasInitialGuess):
             flying.loads(0.0, flying.initial_guess())
         if isinstance(flying, HasGuessedPath) and isinstance(flying, HasRates):

@@ -10,7 +10,7 @@ import numpy as np
 
 from birdmb._typing import FloatArray
 from birdmb.models import FlightCycle
-from birdmb.models.wing_model import WingModel
+from birdmb.models.wing_model import BirdModel
 from birdmb.orbits.collocation import fewer_nodes
 from birdmb.studies.cycles import KeptModels, ModelFactory, path_at_nodes
 from birdmb.studies.sweeps.grid import Value
@@ -61,11 +61,11 @@ def sensitivities(
     targets = {} if trimming is None else trimming.targets
 
     def models(there: _Values) -> KeptModels:
-        def model_at(point: FloatArray) -> WingModel:
+        def model_at(point: FloatArray) -> BirdModel:
             by_name = dict(zip(names, point.tolist(), strict=True))
             if there == values and by_name == trimmed:
                 return cycle.bird_model
-            return cast("WingModel", model(bird.with_values({**there, **by_name})))
+            return cast("BirdModel", model(bird.with_values({**there, **by_name})))
 
         return KeptModels(model_at)
 
