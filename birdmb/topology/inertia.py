@@ -29,7 +29,7 @@ def from_diagonal(value: Any) -> Any:
 
 def moments_by_key(value: Any) -> dict[str, Any]:
     """The body's moments of inertia by key, from three of them or a 3x3 tensor."""
-    tensor = np.empty(0)
+    tensor = np.empty((0, 0))
     if isinstance(value, list | tuple) and len(value) == 3:
         rows = from_diagonal(value)
         with suppress(TypeError, ValueError):
