@@ -22,7 +22,7 @@ def main(directory: Path) -> None:
     for value in study[AMPLITUDE].values:
         at = study.sel({AMPLITUDE: value})
         print(
-            f"{value:15.1f}  {at.mean_speed:11.3f}  {at.climb_rate:+16.3f}  "
+            f"{value:15.1f}  {at.mean_speed:11.3f}  {at.mean_climb_rate:+16.3f}  "
             f"{np.degrees(at.path_angle):+16.2f}  {at.power:9.2f}"
         )
     directory.mkdir(parents=True, exist_ok=True)

@@ -28,7 +28,7 @@ def main(directory: Path) -> None:
         at = study.sel({"longitudinal margin": margin})
         multipliers = at.multiplier_real.values + 1j * at.multiplier_imag.values
         print(
-            f"{margin:6.2f}  {at.mean_speed:11.3f}  {at.climb_rate:+16.3f}  "
+            f"{margin:6.2f}  {at.mean_speed:11.3f}  {at.mean_climb_rate:+16.3f}  "
             + "  ".join(f"{value:.3f}" for value in multipliers)
             + (" *" if at.warning.item() else "")
         )

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from birdmb.models.quantities import described_by
+
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle, FlightMode
     from birdmb.models.wing_model import BirdModel
@@ -32,13 +34,10 @@ def result_object(cycle: FlightCycle, validity: Validity, model_name: str) -> di
         "birdmb_version": version("birdmb"),
         "x0": dict(zip(cycle.state_names, _numbers(cycle.x0), strict=True)),
         "start_time": cycle.start_time,
-        "period": cycle.period,
         "method": cycle.method,
         "method_reason": cycle.method_reason,
         "nodes": cycle.nodes,
-        "state_error": cycle.state_error,
         "flown_closure": finite(cycle.flown_closure),
-        "residual": cycle.residual,
         "iterations": len(cycle.iterations) - 1,
         "steps_per_beat": model.steps_per_beat,
         "integrator": model.integration_method,
@@ -52,23 +51,11 @@ def result_object(cycle: FlightCycle, validity: Validity, model_name: str) -> di
         "failed_checks": list(cycle.failed_checks),
         "why_no_flight": cycle.why_no_flight,
         "taken_as_prescribed": taken_as_prescribed(model),
-        "mean_speed": cycle.mean_speed,
-        "mean_climb_rate": cycle.mean_climb_rate,
-        "path_angle": cycle.path_angle,
-        "mean_pitch": cycle.mean_pitch,
-        "mean_bank": cycle.mean_bank,
-        "turn_rate": cycle.turn_rate,
-        "power": cycle.power,
-        "potential_power": cycle.potential_power,
-        "corrected_power": cycle.corrected_power,
-        "cost_of_transport": finite(cycle.cost_of_transport),
+        **{name: finite(value) for name, value in described_by(cycle).items()},
         "joint_powers": cycle.joint_powers,
         "driver_powers": cycle.driver_powers,
         "driver_work": {name: work._asdict() for name, work in cycle.driver_work.items()},
-        "feather_power": cycle.feather_power,
         "dissipation": cycle.dissipation,
-        "energy_imbalance": cycle.energy_imbalance,
-        "integration_error": cycle.integration_error,
         "reduced_frequency": validity.reduced_frequency,
         "strouhal_number": validity.strouhal_number,
         "largest_angle_of_attack": validity.largest_angle_of_attack,

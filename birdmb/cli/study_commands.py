@@ -135,8 +135,8 @@ def plot(
         list[str] | None,
         typer.Option(
             metavar="NAME",
-            help="largest_modulus, time_constant, power, climb_rate, mean_speed, residual, ... "
-            "Repeatable.",
+            help="largest_modulus, time_constant, power, mean_climb_rate, mean_speed, residual, "
+            "... Repeatable.",
             show_default="the first four in one figure",
         ),
     ] = None,

@@ -130,7 +130,7 @@ def _became(outcome: Any) -> str:
     real, imaginary = (result[f"multiplier_{part}"][0] for part in ("real", "imag"))
     return (
         f"{result['stability']}, |Λ|max {np.hypot(real, imaginary):.4f}, "
-        f"{result['mean_speed']:.2f} m/s, climb {result['climb_rate']:+.2f} m/s"
+        f"{result['mean_speed']:.2f} m/s, climb {result['mean_climb_rate']:+.2f} m/s"
         f"{', backwards' if result['flight'] == 'backwards' else ''}"
     )
 

@@ -61,7 +61,7 @@ def run(bird: Bird, store: Path, *, every: int, workers: int | None, out: Path |
     for line in [*verdict_lines(data), *jump_lines(data)]:
         typer.echo(line)
     beyond = stable & (data["largest_tail_angle"] > LARGEST_TAIL_ANGLE)
-    climb, error = abs(data["climb_rate"]), data["integration_error"].where(allowed)
+    climb, error = abs(data["mean_climb_rate"]), data["integration_error"].where(allowed)
     typer.echo(
         f"Level to {float(climb.max()):.1e} m/s; largest error of a beat within the rules "
         f"{float(error.max()):.1e} of the state scale; {int(beyond.sum())} of the stable flights "

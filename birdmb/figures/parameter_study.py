@@ -15,7 +15,7 @@ from birdmb.text import in_figure
 
 _ROWS = {
     "mean_speed": "mean speed (m/s)",
-    "climb_rate": "climb rate (m/s)",
+    "mean_climb_rate": "climb rate (m/s)",
     "path_angle": "path angle (°)",
     "power": "wing power (W)",
 }
@@ -36,7 +36,7 @@ def plot_performance(study: xr.Dataset) -> Figure:
         axes.plot(study[parameter], shown, "-", color=LINE)
         for inside, face in ((valid, LINE), (~valid, "w")):
             axes.plot(study[parameter][inside], shown[inside], "o", **_marker(LINE, face))
-        if name in ("climb_rate", "path_angle"):
+        if name in ("mean_climb_rate", "path_angle"):
             axes.axhline(0, color="0.7", lw=0.8, zorder=0)
         axes.set_ylabel(label)
         axes.spines[["top", "right"]].set_visible(False)

@@ -21,7 +21,7 @@ from birdmb.text import in_figure
 OVERVIEW = (
     "largest_modulus",
     "mean_speed",
-    "climb_rate",
+    "mean_climb_rate",
     "time_constant",
     "power",
     "cost_of_transport",
@@ -30,7 +30,7 @@ _LABELS = {
     "largest_modulus": "|Λ|max",
     "time_constant": "time constant (s)",
     "power": "wing power (W)",
-    "climb_rate": "climb rate (m/s)",
+    "mean_climb_rate": "climb rate (m/s)",
     "mean_speed": "mean speed (m/s)",
 }
 _UNITS = {
@@ -42,7 +42,7 @@ _UNITS = {
 # Where it turns (red is unstable, purple sinks), and the colours on both sides, above and below.
 _TURNS = {
     "largest_modulus": (1.0, "RdBu_r", "Reds", "Blues_r"),
-    "climb_rate": (0.0, "PuOr_r", "Oranges", "Purples_r"),
+    "mean_climb_rate": (0.0, "PuOr_r", "Oranges", "Purples_r"),
 }
 _DECADE = 10.0  # a wider range of time constants is drawn on a logarithmic scale
 _FAILED: dict[str, Any] = {"facecolor": "0.9", "edgecolor": "0.5", "hatch": "////", "linewidth": 0}
@@ -166,7 +166,7 @@ def _draw_lines(axes: Axes, study: xr.Dataset, name: str) -> None:
         axes.axvline(0.5 * (x[i] + x[i + 1]), **_JUMP | {"linewidth": 1.2})
     if name == "largest_modulus":
         axes.axhline(1, color="k", lw=1)
-    if name == "climb_rate":
+    if name == "mean_climb_rate":
         axes.axhline(0, color="0.7", lw=0.8, zorder=0)
     if name == "time_constant" and np.nanmax(y, initial=0.0) > _DECADE * np.nanmin(y, initial=1.0):
         axes.set_yscale("log")

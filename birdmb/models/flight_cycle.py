@@ -18,6 +18,7 @@ from birdmb.models.energy import Work, work_by_sign
 from birdmb.models.flight_modes import FlightMode, flight_modes
 from birdmb.models.loads import DISSIPATORS
 from birdmb.models.motion import SPACE_STATES, heading_rate, heading_velocity
+from birdmb.models.quantities import described_by
 from birdmb.models.stepped_cycle import SteppedCycle
 from birdmb.models.wing_model import STEPS_PER_BEAT
 
@@ -327,11 +328,7 @@ class FlightCycle(SteppedCycle):
                 "bird": self.bird_model.bird.name,
                 "fingerprint": self.bird_model.bird.fingerprint(),
                 "frame": "body axes: x forward, y right, z down, from the body's centre of mass",
-                "mean_speed": self.mean_speed,
-                "mean_climb_rate": self.mean_climb_rate,
-                "power": self.power,
-                "potential_power": self.potential_power,
-                "cost_of_transport": self.cost_of_transport,
+                **described_by(self),
                 "failed_checks": "; ".join(self.failed_checks),
                 "why_no_flight": self.why_no_flight or "",
             },

@@ -13,6 +13,7 @@ import numpy as np
 from birdmb._typing import FloatArray
 from birdmb.errors import ArgumentError, BirdmbError, StateError, TopologyError
 from birdmb.models import FlightCycle, MultibodyModel
+from birdmb.models.quantities import quantities
 from birdmb.models.wing_model import BirdModel
 from birdmb.orbits import (
     Bifurcation,
@@ -33,16 +34,15 @@ FamilyModel: TypeAlias = Callable[..., BirdModel]
 _SAMPLES = 9
 _DEFAULT_STEPS = Steps()
 
+_RECORDED = quantities(("mean_speed", "mean_climb_rate", "power", "mean_pitch"))
+_CHECKED = quantities(("integration_error",))
 OBSERVABLE_UNITS: Mapping[str, str] = {
-    "mean_speed": "m/s",
-    "mean_climb_rate": "m/s",
-    "power": "W",
-    "mean_pitch": "rad",
+    **{each.name: each.unit for each in _RECORDED},
     "highest_flap": "rad",
     "lowest_flap": "rad",
     "largest_angle_of_attack": "rad",
     "reduced_frequency": "1",
-    "integration_error": "1",
+    **{each.name: each.unit for each in _CHECKED},
 }
 
 
@@ -219,12 +219,7 @@ def flight_observables(bird: Bird) -> dict[str, Callable[[LimitCycle], float]]:
 
     Functions of the limit cycle, in the units of `OBSERVABLE_UNITS`.
     """
-    found: dict[str, Callable[[FlightCycle], float]] = {
-        "mean_speed": lambda cycle: cycle.mean_speed,
-        "mean_climb_rate": lambda cycle: cycle.mean_climb_rate,
-        "power": lambda cycle: cycle.power,
-        "mean_pitch": lambda cycle: cycle.mean_pitch,
-    }
+    found: dict[str, Callable[[FlightCycle], float]] = {each.name: each.of for each in _RECORDED}
     if "shoulder.flap" in bird.joint_names:
         joint = bird.joint_names.index("shoulder.flap")
         found["highest_flap"] = lambda cycle: float(_angles(cycle, joint).max())
@@ -232,7 +227,7 @@ def flight_observables(bird: Bird) -> dict[str, Callable[[LimitCycle], float]]:
     validity = _LastValidity()
     found["largest_angle_of_attack"] = lambda cycle: validity(cycle).largest_angle_of_attack
     found["reduced_frequency"] = lambda cycle: validity(cycle).reduced_frequency
-    found["integration_error"] = lambda cycle: cycle.integration_error
+    found |= {each.name: each.of for each in _CHECKED}
     return cast("dict[str, Callable[[LimitCycle], float]]", found)
 
 

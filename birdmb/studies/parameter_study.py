@@ -10,18 +10,13 @@ import xarray as xr
 
 from birdmb.errors import BirdmbError
 from birdmb.models import FlightCycle, RigidModel
+from birdmb.models.quantities import quantities
 from birdmb.studies.cycles import ModelFactory, WarmCycles
 from birdmb.studies.relevance import check_relevant
 from birdmb.studies.validity import assess_validity
 from birdmb.topology import Bird
 
-_UNITS = {
-    "mean_speed": "m/s",
-    "climb_rate": "m/s",
-    "path_angle": "rad",
-    "power": "W",
-    "residual": "1",
-}
+_KEPT = quantities(("mean_speed", "mean_climb_rate", "path_angle", "power", "residual"))
 
 
 def parameter_study(
@@ -40,9 +35,10 @@ def parameter_study(
 
     Returns:
         By `name` as dimension: `x0` (state), `multiplier_real`, `multiplier_imag` and
-        `multiplier_error` (multiplier, largest modulus first), `mean_speed`, `climb_rate` (m/s),
-        `path_angle` (rad), `power` (W, `FlightCycle.power`), `residual`. As texts, empty where all
-        is well: `warning`, how the cycle leaves the model's validity (`assess_validity`), and
+        `multiplier_error` (multiplier, largest modulus first), `mean_speed`, `mean_climb_rate`
+        (m/s), `path_angle` (rad), `power` (W, `FlightCycle.power`), `residual`. As texts, empty
+        where all is well: `warning`, how the cycle leaves the model's validity
+        (`assess_validity`), and
         `failure`, why there is no cycle, all numbers then being NaN.
 
     Raises:
@@ -71,8 +67,8 @@ def parameter_study(
     variables: dict[str, Any] = {
         key: ((name, axis), np.array([row[key] for row in rows])) for key, axis in per_state.items()
     } | {
-        key: (name, np.array([row[key] for row in rows]), {"units": units})
-        for key, units in _UNITS.items()
+        each.name: (name, np.array([row[each.name] for row in rows]), {"units": each.unit})
+        for each in _KEPT
     }
     return xr.Dataset(
         {
@@ -93,17 +89,13 @@ def _row(cycle: FlightCycle | None, states: int) -> dict[str, Any]:
     if cycle is None:
         nothing = np.full(states, np.nan)
         of_states = ("x0", "multiplier_real", "multiplier_imag", "multiplier_error")
-        return dict.fromkeys(of_states, nothing) | dict.fromkeys(_UNITS, np.nan)
+        return dict.fromkeys(of_states, nothing) | {each.name: np.nan for each in _KEPT}
     return {
         "x0": cycle.x0,
         "multiplier_real": cycle.multipliers.real,
         "multiplier_imag": cycle.multipliers.imag,
         "multiplier_error": cycle.verdict_errors,
-        "mean_speed": cycle.mean_speed,
-        "climb_rate": cycle.mean_climb_rate,
-        "path_angle": cycle.path_angle,
-        "power": cycle.power,
-        "residual": cycle.residual,
+        **{each.name: each.of(cycle) for each in _KEPT},
     }
 
 

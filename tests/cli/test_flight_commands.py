@@ -75,7 +75,7 @@ def test_sweep_of_trimmed_flights(run, tmp_path):
     )  # fmt: skip
     assert done.exit_code == 0, done.stderr
     data = birdmb.Study.open(store).to_xarray()
-    assert abs(data.climb_rate).max() < 1e-6
+    assert abs(data.mean_climb_rate).max() < 1e-6
     assert data["forearm.roll.offset_deg"].notnull().all()
     other = run(
         "sweep", TAIL, "--model", "rigid", "--vary", "shoulder.flap.amplitude_deg=42,40",

@@ -148,7 +148,7 @@ def test_terminal_shows_rate_failures_and_time_left():
             "multiplier_real": [0.5],
             "multiplier_imag": [0.0],
             "mean_speed": 13.8,
-            "climb_rate": -0.25,
+            "mean_climb_rate": -0.25,
             "flight": "forwards",
         },
         "",

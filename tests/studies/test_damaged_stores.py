@@ -91,7 +91,7 @@ STATEMENTS = [
     "alter table points drop column seconds",
     "alter table points rename column result to outcome",
     "pragma user_version = 2",
-    "pragma user_version = 5",
+    "pragma user_version = 4",
     "pragma application_id = 7",
 ]
 

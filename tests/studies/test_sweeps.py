@@ -42,7 +42,7 @@ def test_points_are_limit_cycles(inline):
         assert at.largest_modulus == pytest.approx(np.abs(cycle.multipliers[0]), abs=1e-6)
         assert at.time_constant == pytest.approx(1 / abs(cycle.exponents[0].real), rel=1e-5)
         assert at.power == pytest.approx(cycle.power, abs=1e-6)
-        assert at.climb_rate == pytest.approx(cycle.mean_climb_rate, abs=1e-7)
+        assert at.mean_climb_rate == pytest.approx(cycle.mean_climb_rate, abs=1e-7)
         assert at.residual < 1e-7
         assert at.stability == cycle.stability
 

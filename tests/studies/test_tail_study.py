@@ -47,7 +47,7 @@ def test_it_covers_the_ranges_of_the_thesis():
 def test_flights_are_level(flights):
     data = flights.to_xarray()
     assert (data.status == "found").sum() > 12
-    found = data.climb_rate.values[(data.status == "found").values]
+    found = data.mean_climb_rate.values[(data.status == "found").values]
     np.testing.assert_allclose(found, 0.0, atol=1e-6)
     assert np.isfinite(data[ROLL].values[(data.status == "found").values]).all()
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from birdmb.errors import BirdmbError, OrbitError, StateError
 from birdmb.models import FlightCycle
+from birdmb.models.quantities import described_by
 from birdmb.models.wing_model import BirdModel
 from birdmb.orbits import Model, NotSmoothError, find_limit_cycle
 from birdmb.orbits.collocation import FIRST_NODES
@@ -143,21 +144,8 @@ def described(cycle: FlightCycle) -> dict[str, Any]:
     model = cycle.bird_model
     validity = assess_validity(cycle)
     numbers = {
-        "residual": cycle.residual,
-        "state_error": cycle.state_error,
-        "integration_error": cycle.integration_error,
-        "energy_imbalance": cycle.energy_imbalance,
-        "mean_speed": cycle.mean_speed,
-        "mean_pitch": cycle.mean_pitch,
-        "climb_rate": cycle.mean_climb_rate,
-        "path_angle": cycle.path_angle,
-        "power": cycle.power,
-        "potential_power": cycle.potential_power,
-        "corrected_power": cycle.corrected_power,
-        "cost_of_transport": cycle.cost_of_transport,
-        **{f"lost_to_{name}": power for name, power in cycle.dissipation.items()},
+        **described_by(cycle),
         "largest_tail_angle": validity.largest_tail_angle,
-        "period": cycle.period,
         "iterations": len(cycle.iterations) - 1,
     }
     collocated = cycle.method == "collocation"

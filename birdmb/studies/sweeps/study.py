@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 import xarray as xr
 
+from birdmb.models.quantities import QUANTITIES
 from birdmb.studies.sweeps.contents import Contents
 from birdmb.studies.sweeps.errors import SweepError
 from birdmb.studies.sweeps.grid import Grid, Place, Value
@@ -24,25 +25,8 @@ from birdmb.topology import Bird
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_NUMBERS = {
-    "mean_speed": ("m/s", "mean speed"),
-    "climb_rate": ("m/s", "mean climb rate, upwards positive"),
-    "mean_pitch": ("rad", "mean pitch angle"),
-    "path_angle": ("rad", "angle of the mean path above the horizon"),
-    "power": ("W", "mean power to move the wings against the air"),
-    "potential_power": ("W", "power drawn from sinking"),
-    "corrected_power": ("W", "power as if level"),
-    "cost_of_transport": ("1", "power / (weight x speed)"),
-    "lost_to_lift": ("W", "power lost to the lift's induced drag"),
-    "lost_to_profile": ("W", "power lost to the wings' profile drag"),
-    "lost_to_tail": ("W", "power lost to the tail's drag"),
-    "lost_to_body": ("W", "power lost to the body's drag"),
+_NUMBERS = {quantity.name: (quantity.unit, quantity.about) for quantity in QUANTITIES} | {
     "largest_tail_angle": ("rad", "largest angle of attack of the tail"),
-    "residual": ("1", "closure error of the orbit, in the units of the states"),
-    "state_error": ("1", "error of a collocated orbit, in units of the state scale; 0 if shot"),
-    "integration_error": ("1", "the same, or of a shot one's flow over a beat"),
-    "energy_imbalance": ("1", "what a beat leaves over of the energy; a check"),
-    "period": ("s", "duration of a wingbeat"),
     "iterations": ("1", "steps of the search"),
     "nodes": ("1", "nodes of a collocated orbit"),
     "steps_per_beat": ("1", "integration steps per wingbeat of a shot orbit"),
@@ -189,7 +173,7 @@ class Study:
         """Draw the study: lines over one parameter, maps over two, with the stability boundary.
 
         Args:
-            quantity: `largest_modulus`, `time_constant`, `power`, `climb_rate` or any other
+            quantity: `largest_modulus`, `time_constant`, `power`, `mean_climb_rate` or any other
                 variable of the dataset with one number a point; by default those four.
             at: fixed values of parameters, by name, until no more than two are left.
 

@@ -23,7 +23,7 @@ def verdict_lines(study: xr.Dataset) -> list[str]:
         shown = study["stability"].values == kind
         if not shown.any():
             continue
-        speed, climb = (study[name].values[shown] for name in ("mean_speed", "climb_rate"))
+        speed, climb = (study[name].values[shown] for name in ("mean_speed", "mean_climb_rate"))
         backwards = np.count_nonzero(study["flight"].values[shown] == "backwards")
         lines.append(
             f"{shown.sum()} {kind}: {_span(speed, '.4g')} m/s, climbing {_span(climb, '+.2g')} m/s"
@@ -66,7 +66,7 @@ def _told(study: xr.Dataset, values: dict[str, Any]) -> str:
     listed = ", ".join(f"{name} = {short(value)}" for name, value in values.items())
     return (
         f"{listed} ({at['stability'].item()}, {at['mean_speed'].item():.4g} m/s, climb "
-        f"{at['climb_rate'].item():+.2g} m/s)"
+        f"{at['mean_climb_rate'].item():+.2g} m/s)"
     )
 
 
