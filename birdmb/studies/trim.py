@@ -18,7 +18,7 @@ from birdmb.models import FlightCycle, RigidModel
 from birdmb.orbits import FloquetResult
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.errors import TrimError
-from birdmb.studies.trim_search import Trimmed, TrimSearch
+from birdmb.studies.trim_search import TrimSearch
 from birdmb.topology import Bird
 
 _STEPS = 25
@@ -114,27 +114,40 @@ def trim_flight(
         if not (np.isfinite([low, high]).all() and low < high):
             raise ArgumentError(f"the bounds of {name} must be ascending, not {low} and {high}.")
     trials = TrimSearch(bird, parameters, targets, model, tolerance, search or {})
-    from_guess = guess is not None
-    with suppress(Trimmed):
-        if guess is not None:
-            point = np.array([guess.values[name] for name in trials.names])
-            _solve_together(trials, point, guess.orbit)
-        from_guess = False
-        _solve_together(trials, trials.start, None)
-        if guess is None:
-            with suppress(OrbitError, StateError):
-                _solve_together(trials, trials.start, trials.orbit_at(trials.start))
-        if guess is None and speed is None:
-            _solve_one(trials)
-        elif guess is None:
-            _solve_two(trials)
+    from_guess = _from_guess(trials, guess)
+    # Who gives a guess has others to fall back on, and waits for none of the slow ways.
+    ways = (_from_level_flight, _from_own_cycle, _solve_one if speed is None else _solve_two)
+    for way in ways if guess is None else ways[:1]:
+        if not trials.succeeded:
+            way(trials)
     return _result(trials, from_guess)
+
+
+def _from_guess(search: TrimSearch, guess: TrimGuess | None) -> bool:
+    """Whether the search succeeds from a guess."""
+    if guess is None:
+        return False
+    point = np.array([guess.values[name] for name in search.names])
+    _solve_together(search, point, guess.orbit)
+    return search.succeeded
+
+
+def _from_level_flight(search: TrimSearch) -> None:
+    _solve_together(search, search.start, None)
+
+
+def _from_own_cycle(search: TrimSearch) -> None:
+    """From the limit cycle with the bird's own parameters."""
+    with suppress(OrbitError, StateError):
+        orbit = search.orbit_at(search.start)
+        if not search.succeeded:
+            _solve_together(search, search.start, orbit)
 
 
 def _solve_together(
     search: TrimSearch, point: FloatArray, guess: npt.ArrayLike | FloquetResult | None
 ) -> None:
-    """Raise `Trimmed` if Newton's method finds a trim from these parameters and this orbit.
+    """Newton's method from these parameters and this orbit.
 
     Where it fails there are other places to start from.
     """
@@ -154,6 +167,8 @@ def _solve_one(search: TrimSearch) -> None:
     for value in np.linspace(low, high, _GRID):
         with suppress(OrbitError, StateError):
             points.append((float(value), difference(float(value))))
+        if search.succeeded:
+            return
     changes = [(a, b) for (a, at_a), (b, at_b) in pairwise(points) if at_a * at_b < 0]
     if changes:
         nearest = min(changes, key=lambda ends: min(abs(end - start) for end in ends))

@@ -30,10 +30,6 @@ _SLOWEST = 1.0  # m/s
 _FIRST_NODES = 17
 
 
-class Trimmed(Exception):  # noqa: N818 - it reports success
-    """The targets are met: the search may stop."""
-
-
 @dataclass(frozen=True)
 class Trial:
     """A limit cycle that was tried: parameters (k,), what it reaches, and by how much it misses."""
@@ -75,13 +71,21 @@ class TrimSearch:
         self._failures: dict[tuple[float, ...], str] = {}
         self._failure_together = ""
 
+    @property
+    def succeeded(self) -> bool:
+        """Whether a flight that is not steep meets all targets within the tolerance."""
+        return any(self.is_trimmed(trial) and not trial.steep for trial in self.found.values())
+
     def differences(self, point: FloatArray) -> FloatArray:
-        """Reached minus wanted (k,), m/s.
+        """Reached minus wanted (k,), m/s; exactly zero once the search has succeeded.
+
+        So whatever solver asks for them comes to its end.
 
         Raises:
-            Trimmed: they are all within the tolerance, in a flight that is not steep.
             OrbitError, StateError: there is no limit cycle.
         """
+        if self.succeeded:
+            return np.zeros(len(self._targets))
         key = tuple(point.tolist())
         if key not in self.found:
             try:
@@ -90,16 +94,13 @@ class TrimSearch:
                 self._failures[key] = str(error)
                 raise
             self._keep(point, cycle)
-        return self.found[key].differences
+        return np.zeros(len(self._targets)) if self.succeeded else self.found[key].differences
 
     def _keep(self, point: FloatArray, cycle: FlightCycle) -> None:
-        """Keep a trial; raises `Trimmed` if it is."""
+        """Keep a trial."""
         reached = {"climb_rate": cycle.mean_climb_rate, "speed": cycle.mean_speed}
         missed = np.array([reached[name] - wanted for name, wanted in self._targets.items()])
-        trial = Trial(point.copy(), cycle, reached, missed)
-        self.found[tuple(point.tolist())] = trial
-        if self.is_trimmed(trial) and not trial.steep:
-            raise Trimmed
+        self.found[tuple(point.tolist())] = Trial(point.copy(), cycle, reached, missed)
 
     def solve_together(
         self, point: FloatArray, guess: npt.ArrayLike | FloquetResult | None
@@ -110,7 +111,6 @@ class TrimSearch:
         not smooth, by shooting. `None` is level forward flight.
 
         Raises:
-            Trimmed: they are met, in a flight that is not steep.
             OrbitError, StateError: they are not met.
         """
         if self._collocates(point):
@@ -180,7 +180,6 @@ class TrimSearch:
         """The limit cycle with these parameters, or the state (n,) that the model guesses.
 
         Raises:
-            Trimmed: it is trimmed already.
             StateError: the model has no guess.
         """
         with suppress(OrbitError, StateError):
