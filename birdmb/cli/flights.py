@@ -87,10 +87,12 @@ def _found(
 
 
 def _table(cycles: list[FlightCycle], validity: list[Validity]) -> Table:
+    in_space = cycles[0].bird_model.motion.lateral.any()
     table = table_of(
         "Limit cycles, means over a beat",
-        "no.", "speed, m/s", "climb, m/s", "pitch, °", "|Λ| max", "verdict", "validity",
-        numbers=(0, 1, 2, 3, 4),
+        "no.", "speed, m/s", "climb", "pitch, °", *(["bank, °"] if in_space else []),
+        "|Λ| max", "verdict", "warnings",
+        numbers=(0, 1, 2, 3, 4, 5, 7) if in_space else (0, 1, 2, 3, 4, 6),
     )  # fmt: skip
     for number, (cycle, valid) in enumerate(zip(cycles, validity, strict=True), 1):
         count = len(valid.warnings)
@@ -99,9 +101,10 @@ def _table(cycles: list[FlightCycle], validity: list[Validity]) -> Table:
             f"{cycle.mean_speed:.2f}",
             f"{cycle.mean_climb_rate:+.2f}",
             f"{np.degrees(cycle.mean_pitch):+.0f}",
+            *([f"{np.degrees(cycle.mean_bank):+.0f}"] if in_space else []),
             f"{float(np.abs(cycle.multipliers[0])):.4f}",
             cycle.stability if cycle.why_no_flight is None else "no flight",
-            f"{count} warning{'' if count == 1 else 's'}" if count else "",
+            str(count) if count else "",
             style=_STYLES[cycle.stability] if cycle.why_no_flight is None else "dim",
         )
     return table

@@ -31,7 +31,7 @@ from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.gusts import Gust
 from birdmb.models.motion import PLANAR, Motion, MotionName, motion_named
 from birdmb.models.rigid_kernel import RigidBody, integrate_rigid, rates_along
-from birdmb.models.starts import INCIDENCES, PATH_ANGLES, SPEEDS, steady_states
+from birdmb.models.starts import INCIDENCES, PATH_ANGLES, SPEEDS, steady_states, steady_turns
 from birdmb.models.trim import mean_trim
 from birdmb.models.wing_model import STEPS_PER_BEAT, BirdModel
 from birdmb.topology import Bird
@@ -165,6 +165,7 @@ class RigidModel(BirdModel):
         *,
         slopes_wanted: bool,
     ) -> tuple[FloatArray, FloatArray]:
+        self._refuse_upright(times, states)
         air = self.air_velocities(times)
         with overflow_told(self.bird, "the force of the air"):
             return rates_along(*table, phase, states, air, *self._constants, slopes_wanted)
@@ -206,11 +207,16 @@ class RigidModel(BirdModel):
     def starting_paths(self, times: FloatArray) -> Iterator[FloatArray]:
         """Paths (K, n) at `times` (K,) s to look for flights from, the guess first.
 
-        Then steady flights at several speeds, incidences and path angles.
+        Then steady flights at several speeds, incidences and path angles; in space turns to both
+        sides, too.
         """
         yield self.guess_along(times)
-        for state in steady_states(self, SPEEDS, INCIDENCES, PATH_ANGLES):
-            yield np.tile(self._state_of(state), (times.size, 1))
+        states = steady_states(self, SPEEDS, INCIDENCES, PATH_ANGLES)
+        found = PLANAR.in_space(states)
+        if self.motion is not PLANAR:
+            found = np.vstack([found, steady_turns(found, self.bird.gravity)])
+        for state in found[:, self.motion.indices]:
+            yield np.tile(state, (times.size, 1))
 
     def _span_a_beat(self, times: FloatArray) -> bool:
         if times.size < _PHASES:
@@ -249,7 +255,20 @@ class RigidModel(BirdModel):
                 f"{self.bird.name}: the flight from t = {t0:.4g} s diverged before "
                 f"t = {t1:.4g} s (start: {self._described(start)})."
             )
+        self._refuse_upright(np.linspace(t0, t1, steps + 1), found[0])
         return found
+
+    def _refuse_upright(self, times: FloatArray, states: FloatArray) -> None:
+        """Raise `StateError` where the angles of motion in space end."""
+        if self.motion is PLANAR:
+            return
+        upright = np.abs(states[:, self.state_names.index("theta")]) >= 0.5 * np.pi
+        if upright.any():
+            t = float(times[np.argmax(upright)])
+            raise StateError(
+                f"{self.bird.name}: at t = {t:.4g} s the body pitches beyond 90 degrees, where "
+                'roll and heading are not told apart (motion="free").'
+            )
 
     def _described(self, x: FloatArray) -> str:
         return ", ".join(f"{n} = {v:.4g}" for n, v in zip(self.state_names, x, strict=True))

@@ -18,6 +18,7 @@ SPEEDS = (1.0, 1.5, 0.7, 2.2, 0.4)
 INCIDENCES = (5.0, 15.0, -5.0)
 PATH_ANGLES = (0.0, -20.0, 20.0, -60.0, 60.0)
 _TYPICAL_SPEED = 10.0  # m/s, without weight or air
+_BANK = 0.5  # rad, of turns
 # Where each start is dear.
 FEW_SPEEDS = (1.0, 1.6, 0.65)
 FEW_INCIDENCES = (5.0,)
@@ -48,3 +49,18 @@ def steady_states(
         )
     )
     return np.column_stack([v * np.cos(alpha), v * np.sin(alpha), np.zeros(v.size), alpha + gamma])
+
+
+def steady_turns(space: FloatArray, gravity: float) -> FloatArray:
+    """States in space (2 S, 8) of coordinated turns to the right and to the left.
+
+    Of straight flights (S, 8), each banked so that its lift turns the path: tan(bank) = V omega/g.
+    """
+    speed = np.hypot(space[:, 0], space[:, 2])
+    turns = []
+    for bank in (_BANK, -_BANK):
+        rate = gravity * np.tan(bank) / speed
+        turn = space.copy()
+        turn[:, 4], turn[:, 5], turn[:, 6] = rate * np.sin(bank), rate * np.cos(bank), bank
+        turns.append(turn)
+    return np.vstack(turns)

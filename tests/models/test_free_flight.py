@@ -155,3 +155,22 @@ def test_a_turn_is_a_limit_cycle_like_its_mirror_image(model):
     for beat in range(360):
         x = model.flow(x, beat * model.period, (beat + 1) * model.period)
     np.testing.assert_allclose(x, right.x0, atol=1e-2)
+
+
+def test_all_flights_in_space_hold_turns_to_both_sides(model):
+    found = birdmb.find_limit_cycles(model, deflations=0)
+    flights = [cycle for cycle in found if cycle.why_no_flight is None]
+    assert len(flights) == 3  # and none of them twice, by other angles of the same attitude
+    straight, *turns = flights
+    assert abs(straight.mean_bank) < 1e-8
+    left, right = sorted(turns, key=lambda cycle: cycle.mean_bank)
+    assert left.turn_rate < 0 < right.turn_rate
+    assert turns[0].mean_speed == pytest.approx(turns[1].mean_speed, abs=1e-6)
+
+
+def test_a_body_that_pitches_beyond_the_vertical_is_refused(model):
+    upright = ASIDE.copy()
+    upright[7] = 1.6
+    for compute in (lambda: model.rhs(0.0, upright), lambda: model.flow(upright, 0.0, 0.1)):
+        with pytest.raises(birdmb.StateError, match="pitches beyond 90 degrees"):
+            compute()
