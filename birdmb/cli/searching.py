@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.cli.models import model_class
-from birdmb.cli.outcome import InputError, SearchFailed
+from birdmb.cli.models import bound_model
+from birdmb.cli.outcome import SearchFailed
 from birdmb.cli.results import finite, taken_as_prescribed
 from birdmb.errors import OrbitError, StateError
 from birdmb.models import MultibodyModel, RigidModel
@@ -81,15 +81,7 @@ def model_of(
         InputError: the model has no such motion.
         TopologyError: the bird lacks what the motion needs.
     """
-    kind = model_class(name)
-    if issubclass(kind, RigidModel):
-        return kind(bird, motion=motion, steps_per_beat=steps_per_beat)
-    if motion != "planar":
-        raise InputError(
-            f"--motion {motion} is of the rigid model: the multibody one flies in its plane of "
-            "symmetry alone. Add --model rigid."
-        )
-    return kind(bird, steps_per_beat=steps_per_beat)
+    return bound_model(name, motion, steps_per_beat)(bird)
 
 
 def announce(model: RigidModel | MultibodyModel, name: str, progress: Progress) -> None:

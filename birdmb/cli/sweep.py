@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping, Sequence
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +13,8 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, SpinnerColumn, TextColumn
 
 from birdmb.cli.console import messages
-from birdmb.cli.models import model_class
+from birdmb.cli.models import bound_model
+from birdmb.models.motion import MotionName
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.relevance import ignored_values
 from birdmb.studies.sweeps import Finished, Study, Trimming, sweep
@@ -31,13 +31,13 @@ def run(
     *,
     workers: int | None,
     model: str,
+    motion: MotionName,
     steps_per_beat: int | None,
     trim: Trimming | None,
     search: Mapping[str, Any],
 ) -> None:
     """Fill the store, with progress on standard error, and say what it holds."""
-    kind = model_class(model)
-    bound = kind if steps_per_beat is None else partial(kind, steps_per_beat=steps_per_beat)
+    bound = bound_model(model, motion, steps_per_beat)
     with SweepProgress(messages(), ignored_springs(bird, bound)) as progress:
         study = sweep(
             bird,

@@ -11,8 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 from birdmb._typing import FloatArray
-from birdmb.errors import OrbitError, StateError
+from birdmb.errors import ArgumentError, OrbitError, StateError
 from birdmb.models import BirdModel, FlightCycle
+from birdmb.models.motion import PLANAR
 from birdmb.models.wing_model import BODY_STATES
 from birdmb.orbits import FloquetResult, NotSmoothError
 from birdmb.orbits.collocation_search import collocated_cycle, guessed_path, nodes_shown
@@ -67,6 +68,11 @@ class TrimSearch:
             bird.with_values(self.named(bound))
         self._cycle, self._options = WarmCycles(bird, model, options), options
         self._model_at = KeptModels(self._made_at)
+        if self._model_at(self.start).motion is not PLANAR:
+            raise ArgumentError(
+                "a trim is that of a symmetric flight: trim with a planar model, then fly the bird "
+                "that it finds in space."
+            )
         self.found: dict[tuple[float, ...], Trial] = {}
         self._failures: dict[tuple[float, ...], str] = {}
         self._failure_together = ""

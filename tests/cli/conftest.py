@@ -10,6 +10,7 @@ from birdmb.cli.app import app
 
 TOPOLOGIES = Path(__file__).parents[2] / "topologies"
 IBIS = str(TOPOLOGIES / "ibis.toml")
+IBIS_TAIL = str(TOPOLOGIES / "ibis_tail.toml")
 COMPLIANT = str(TOPOLOGIES / "ibis_compliant_shoulder.toml")
 HINGED = str(TOPOLOGIES / "ibis_hinged_feathers.toml")
 # Only a process that hangs takes as long, s; one on a busy machine does not.

@@ -16,7 +16,7 @@ from birdmb.cli.sweep import SweepProgress, _line
 from birdmb.studies.sweeps import Finished, Study
 from birdmb.studies.sweeps.tasks import Outcome
 
-from .conftest import HANGS, IBIS
+from .conftest import HANGS, IBIS, IBIS_TAIL
 
 VARY = (
     *("--vary", "shoulder.flap.amplitude_deg=42:38:5"),
@@ -168,3 +168,27 @@ def test_terminal_shows_rate_failures_and_time_left():
     assert "12/40" in last
     assert "points/s, 1 failed, 0:00:0" in last
     assert last.rstrip().endswith("left")
+
+
+def test_lateral_modes_are_swept_in_space(tmp_path, run):
+    store = tmp_path / "study.db"
+    coarse = ("--set", "wing.discretisation=6")
+    grid = ("--vary", "shoulder.flap.offset_deg=-4,4", "--store", str(store), *coarse)
+    refused = run("sweep", IBIS_TAIL, "--motion", "free", *grid)
+    assert refused.exit_code == 2
+    assert "--motion free is of the rigid model" in refused.stderr
+    result = run("sweep", IBIS_TAIL, "--model", "rigid", "--motion", "free", *grid)
+    assert result.exit_code == 0
+    data = Study.open(store).to_xarray()
+    spiral = (data.multiplier_mode == "spiral").values
+    assert spiral.sum(axis=-1).tolist() == [1, 1]
+    low, high = data.multiplier_real.values[spiral]
+    assert low > high > 1  # dihedral steadies the spiral
+    other = run("sweep", IBIS_TAIL, "--model", "rigid", *grid)
+    assert other.exit_code == 2
+    assert "the model is RigidModel(motion='free') there and RigidModel here" in other.stderr
+    trimmed = run(
+        "sweep", IBIS_TAIL, "--model", "rigid", "--motion", "free", *grid[:2], *coarse,
+        "--store", str(tmp_path / "trim.db"), "--trim", "forearm.roll.offset_deg=-20:10",
+    )  # fmt: skip
+    assert "a trim is that of a symmetric flight" in trimmed.stderr

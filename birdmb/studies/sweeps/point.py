@@ -162,6 +162,7 @@ def described(cycle: FlightCycle) -> dict[str, Any]:
         "multiplier_imag": cycle.multipliers.imag.tolist(),
         # An error without bound is no JSON number.
         "multiplier_error": [e if math.isfinite(e) else None for e in cycle.verdict_errors],
+        "multiplier_mode": [mode.name or mode.plane for mode in cycle.flight_modes],
         "monodromy": cycle.monodromy.tolist(),
         "stability": cycle.stability,
         "flight": "forwards" if cycle.why_no_flight is None else "backwards",

@@ -33,8 +33,8 @@ _NUMBERS = {quantity.name: (quantity.unit, quantity.about) for quantity in QUANT
 }
 _BY_MULTIPLIER = ("multiplier_real", "multiplier_imag", "multiplier_error")
 _OTHERS = (
-    *("x0", "monodromy", "stability", "flight", "integrator", "trimmed", "warning"),
-    *("sensitivity", "state_scale", "orbit", "method", "method_reason"),
+    *("x0", "monodromy", "multiplier_mode", "stability", "flight", "integrator", "trimmed"),
+    *("warning", "sensitivity", "state_scale", "orbit", "method", "method_reason"),
 )
 
 
@@ -91,7 +91,8 @@ class Study:
         reason, `flight` "forwards", or "backwards" for a bird that flies so, on its tail or on its
         back, `warning` how a cycle leaves the model's validity, `method` "collocation" or
         "shooting", `method_reason` why the latter, `integrator` explicit or implicit if so,
-        `multiplier_error` what the verdict counts (NaN: no bound), `start` the neighbour that the
+        `multiplier_error` what the verdict counts (NaN: no bound), `multiplier_mode` what its mode
+        is called, or else its plane, `start` the neighbour that the
         search started from. `sheet_jump` is true where the step to the next larger value of the
         parameter `along` does not explain how the flights at both differ
         (`birdmb.studies.sweeps.jumps`). The same study gives the same dataset to the last bit,
@@ -114,6 +115,7 @@ class Study:
             {p: [r["x0"].get(name, np.nan) for name in states] for p, r in found.items()},
             state=len(states),
         )
+        data["multiplier_mode"] = self._modes(found, len(states))
         data["monodromy"] = self._filled(
             {p: _placed(r, states) for p, r in found.items()},
             state=len(states),
@@ -168,6 +170,12 @@ class Study:
                 values[place] = text
             texts[name] = xr.DataArray(values.astype(str), dims=list(self.parameters))
         return texts
+
+    def _modes(self, found: Mapping[Place, Mapping[str, Any]], count: int) -> xr.DataArray:
+        values = np.full((*Grid(self.parameters).shape, count), "", dtype=object)
+        for place, result in found.items():
+            values[place][: len(result["multiplier_mode"])] = result["multiplier_mode"]
+        return xr.DataArray(values.astype(str), dims=[*self.parameters, "multiplier"])
 
     def plot(self, quantity: str | None = None, *, at: Mapping[str, Value] | None = None) -> Figure:
         """Draw the study: lines over one parameter, maps over two, with the stability boundary.
