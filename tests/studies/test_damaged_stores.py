@@ -26,6 +26,7 @@ def outcome(value):
     """A made-up flight."""
     result = dict.fromkeys(_NUMBERS, value) | dict.fromkeys(_BY_MULTIPLIER, [value] * 4)
     result |= {"x0": dict.fromkeys(STATES, value), "monodromy": np.eye(4).tolist()}
+    result["multiplier_mode"] = ["longitudinal"] * 4
     result |= {"stability": "stable", "integrator": "explicit", "trimmed": {}, "warning": ""}
     result |= {"flight": "forwards", "sensitivity": {}, "state_scale": [10.0, 2.0, 1.0, 0.2]}
     result |= {"orbit": None, "method": "shooting", "method_reason": "asked for"}
