@@ -12,7 +12,7 @@ from birdmb.orbits.collocation import Collocated, CollocationEquations, more_nod
 from birdmb.orbits.linearisation import trivial_mode
 from birdmb.orbits.multipliers import Spectrum, paired_distances, product
 from birdmb.orbits.periodic import periodic_multipliers
-from birdmb.orbits.variational import flow_jacobians
+from birdmb.orbits.variational import flow_jacobian_errors, flow_jacobians
 
 # The finer multipliers are better, not exact.
 _ERROR_PER_DIFFERENCE = 3.0
@@ -115,8 +115,10 @@ def _linearised(
     if jacobians is None:
         jacobians = equations.rate_jacobians(u)
     rhs = equations.rhs
-    factors, factor_errors = flow_jacobians(period * jacobians)
+    factors = flow_jacobians(period * jacobians)
+    factor_errors = np.zeros_like(factors)
     if with_errors:
+        factor_errors = flow_jacobian_errors(period * jacobians, factors)
         errors = rhs.jacobian_errors(equations.times(period), points, jacobians)
         # To first order an error of the derivative acts for the length of an interval.
         size = np.maximum(np.abs(factors), np.eye(len(rhs.scale)))

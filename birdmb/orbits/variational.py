@@ -22,17 +22,23 @@ _LARGEST_STEP = 3.0
 _MOST_PARTS = 4
 
 
-def flow_jacobians(rate_jacobians: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Flow Jacobians from node to node, (N, n, n), and bounds (N, n, n) of their errors.
+def flow_jacobians(rate_jacobians: FloatArray) -> FloatArray:
+    """Flow Jacobians from node to node, (N, n, n).
 
-    `rate_jacobians` (N, n, n) are those of the rates at the nodes, by phase (times the period). The
-    bound is what fewer stages make of them.
+    `rate_jacobians` (N, n, n) are those of the rates at the nodes, by phase (times the period).
     """
-    nodes = len(rate_jacobians)
-    step = float(np.abs(rate_jacobians).sum(axis=2).max()) / nodes
-    parts = int(np.clip(np.ceil(step / _LARGEST_STEP), 1, _MOST_PARTS))
-    factors = _integrated(rate_jacobians, _STAGES, parts)
-    return factors, np.abs(factors - _integrated(rate_jacobians, _FEWER_STAGES, parts))
+    return _integrated(rate_jacobians, _STAGES, _parts(rate_jacobians))
+
+
+def flow_jacobian_errors(rate_jacobians: FloatArray, factors: FloatArray) -> FloatArray:
+    """Bounds (N, n, n) of the errors of flow Jacobians: what fewer stages make of them."""
+    return np.abs(factors - _integrated(rate_jacobians, _FEWER_STAGES, _parts(rate_jacobians)))
+
+
+def _parts(rate_jacobians: FloatArray) -> int:
+    """Into how many parts an interval is divided."""
+    step = float(np.abs(rate_jacobians).sum(axis=2).max()) / len(rate_jacobians)
+    return int(np.clip(np.ceil(step / _LARGEST_STEP), 1, _MOST_PARTS))
 
 
 def _integrated(rate_jacobians: FloatArray, stages: int, parts: int) -> FloatArray:
