@@ -108,8 +108,11 @@ def shot_near(
         jacobians: its segment Jacobians (M, n, n), if known.
         options: what else `find_limit_cycle` takes.
     """
-    shooting = {**options, "method": "shooting", "segments": options.get("segments") or len(points)}
-    found = find_limit_cycle(model, points, jacobian_guess=jacobians, **shooting)
+    count = options.get("segments") or len(points)
+    # Of starts that do not fit the segments, the first leads to those that do.
+    start = points if len(points) == count else points[0]
+    shooting = {**options, "method": "shooting", "segments": count}
+    found = find_limit_cycle(model, start, jacobian_guess=jacobians, **shooting)
     asked = options.get("segments") is not None or options.get("method") == "shooting"
     return found if asked else replace(found, method_reason="so was the cycle it started from")
 

@@ -65,3 +65,12 @@ def test_neighbours_of_a_flight_that_was_shot_are_shot():
     assert near.result["method"] == "shooting"
     assert near.result["method_reason"] == "so was the cycle it started from"
     assert near.result["orbit"] is None
+
+
+def test_points_that_are_shot_over_segments_start_from_their_neighbour(tmp_path):
+    """The store keeps one state of it, which fits no three segments."""
+    options = {"store": tmp_path / "s.db", "executor": Inline(), "model": QUICK, "segments": 3}
+    sweep(coarse_bird(), {MASS: [1.2, 1.21]}, **options)
+    first, second = Study.open(tmp_path / "s.db").outcomes.values()
+    assert (first.start, second.start) == ("cold", "[0]")
+    assert second.result["method"] == "shooting"
