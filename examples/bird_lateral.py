@@ -15,6 +15,7 @@ from rich.table import Table
 
 import birdmb
 from birdmb.models import FlightMode
+from birdmb.models.starts import steady_turns
 
 TOPOLOGIES = Path(__file__).parent.parent / "topologies"
 MODES = ("roll", "spiral", "Dutch roll")
@@ -38,10 +39,9 @@ VARIATIONS: dict[str, Mapping[str, float]] = {
 def flown(bird: birdmb.Bird) -> birdmb.FlightCycle | None:
     """The bird's limit cycle in space; `None` if there is none."""
     try:
-        cycle = birdmb.find_limit_cycle(birdmb.RigidModel(bird, motion="free"))
+        return birdmb.find_limit_cycle(birdmb.RigidModel(bird, motion="free"))
     except birdmb.BirdmbError:
         return None
-    return cycle if isinstance(cycle, birdmb.FlightCycle) else None
 
 
 def beating(bird: birdmb.Bird, part: float) -> birdmb.Bird:
@@ -83,17 +83,12 @@ def turning(bird: birdmb.Bird) -> Table:
     """The straight flight, the turn that a banked start leads to, and where the former ends."""
     model = birdmb.RigidModel(bird, motion="free")
     straight = birdmb.find_limit_cycle(model)
-    start = straight.x0.copy()
-    names, bank = model.state_names, 0.5
-    rate = bird.gravity / straight.mean_speed * np.tan(bank)
-    start[names.index("phi")] = bank
-    start[names.index("q")] += rate * np.sin(bank)
-    start[names.index("r")] = rate * np.cos(bank)
+    right, _ = steady_turns(straight.x0[None], bird.gravity)
     table = Table(
         "flight", "m/s", "climb", "bank, deg", "turn, deg/s", "|Λ| max", "power, W",
         title="Straight flight and turn",
     )  # fmt: skip
-    turn = birdmb.find_limit_cycle(model, start)
+    turn = birdmb.find_limit_cycle(model, right)
     for name, cycle in (("straight", straight), ("turn", turn)):
         degrees = np.degrees([cycle.mean_bank, cycle.turn_rate])
         table.add_row(
@@ -102,7 +97,7 @@ def turning(bird: birdmb.Bird) -> Table:
             f"{abs(cycle.multipliers[0]):.4f}", f"{cycle.power:.2f}",
         )  # fmt: skip
     x = straight.x0.copy()
-    x[names.index("phi")] = 1e-3
+    x[model.state_names.index("phi")] = 1e-3
     for beat in range(400):
         x = model.flow(x, beat * model.period, (beat + 1) * model.period)
     away = np.abs((x - turn.x0) / model.state_scale).max()
@@ -110,18 +105,23 @@ def turning(bird: birdmb.Bird) -> Table:
     return table
 
 
-def picture(bird: birdmb.Bird) -> Figure:
+def moduli(bird: birdmb.Bird, parts: np.ndarray) -> dict[str, np.ndarray]:
+    """Moduli (P,) of the slow lateral multipliers at parts (P,) of the amplitudes, by mode."""
+    found = {name: np.full(parts.size, np.nan) for name in MODES[1:]}
+    for i, part in enumerate(parts):
+        cycle = flown(beating(bird, part))
+        for mode in () if cycle is None else cycle.flight_modes:
+            if mode.name in found:
+                found[mode.name][i] = abs(mode.multiplier)
+    return found
+
+
+def picture(parts: np.ndarray, by_mode: Mapping[str, np.ndarray]) -> Figure:
     """Moduli of the slow lateral multipliers from gliding to flapping."""
-    parts = np.linspace(0.0, 1.0, 21)
     figure = Figure(figsize=(7, 4), layout="constrained")
     axes = figure.subplots()
-    cycles = [flown(beating(bird, part)) for part in parts]
-    for name, colour in zip(MODES[1:], ("C3", "C0"), strict=True):
-        moduli = []
-        for cycle in cycles:
-            modes = () if cycle is None else cycle.flight_modes
-            moduli.append(next((abs(m.multiplier) for m in modes if m.name == name), np.nan))
-        axes.plot(parts, moduli, color=colour, label=name)
+    for (name, values), colour in zip(by_mode.items(), ("C3", "C0"), strict=True):
+        axes.plot(parts, values, color=colour, label=name)
     axes.axhline(1.0, color="0.6", lw=0.8)
     axes.set_xlabel("part of the wingbeat's amplitudes (0: gliding)")
     axes.set_ylabel("|Λ| per beat of 0.25 s")
@@ -155,7 +155,12 @@ def main() -> None:
         row(table, str(elements), tailed.with_values({"wing.discretisation": elements}))
     console.print(table)
     console.print(turning(tailed))
-    picture(tailed).savefig(out / "lateral_modes.png", dpi=120)
+    parts = np.linspace(0.0, 1.0, 21)
+    slow = moduli(tailed, parts)
+    first = int(np.argmax(slow["spiral"] > 1.0))
+    part = np.interp(1.0, slow["spiral"][first - 1 : first + 1], parts[first - 1 : first + 1])
+    console.print(f"The spiral is unstable beyond {part:.2f} of the amplitudes (tail spread).")
+    picture(parts, slow).savefig(out / "lateral_modes.png", dpi=120)
 
 
 if __name__ == "__main__":

@@ -19,7 +19,13 @@ import numpy as np
 from birdmb._kernels import kernel
 from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.circulation import ElementLoads, profile_drag, vortex_forces
-from birdmb.aerodynamics.elements import ODD, Elements, system_of, wake_influence
+from birdmb.aerodynamics.elements import (
+    ODD,
+    Elements,
+    circulation_system,
+    system_of,
+    wake_influence,
+)
 
 
 class Flow(NamedTuple):
@@ -157,23 +163,22 @@ def loads_of_both(
     n = elements.chord.size
     right = wing_flow(elements, twist, no_derivatives)
     left = mirrored_flow(elements, twist, no_derivatives)
-    even_y, even_z = elements.induced_y, elements.induced_z
-    odd_y, odd_z = wake_influence(elements.position, elements.node, ODD)
+    by_odd_y, by_odd_z = wake_influence(elements.position, elements.node, ODD)
     even, odd = np.full(n, np.nan), np.full(n, np.nan)
     # The solver refuses what is not finite.
     if np.isfinite(np.sum(right.bound) + np.sum(left.bound)):
         even = np.linalg.solve(
-            system_of(elements, even_y, even_z), 0.5 * (right.bound[:, 0] + left.bound[:, 0])
+            circulation_system(elements), 0.5 * (right.bound[:, 0] + left.bound[:, 0])
         )
         odd = np.linalg.solve(
-            system_of(elements, odd_y, odd_z), 0.5 * (right.bound[:, 0] - left.bound[:, 0])
+            system_of(elements, by_odd_y, by_odd_z), 0.5 * (right.bound[:, 0] - left.bound[:, 0])
         )
+    even_y, even_z = elements.induced_y @ even, elements.induced_z @ even
+    odd_y, odd_z = by_odd_y @ odd, by_odd_z @ odd
     return (
-        _loads_in(elements, density, profile, right, even + odd, even_y @ even + odd_y @ odd,
-                  even_z @ even + odd_z @ odd),
-        _loads_in(elements, density, profile, left, even - odd, even_y @ even - odd_y @ odd,
-                  even_z @ even - odd_z @ odd),
-    )  # fmt: skip
+        _loads_in(elements, density, profile, right, even + odd, even_y + odd_y, even_z + odd_z),
+        _loads_in(elements, density, profile, left, even - odd, even_y - odd_y, even_z - odd_z),
+    )
 
 
 @kernel

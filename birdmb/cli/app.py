@@ -89,8 +89,6 @@ def cycle(
     topology: Topology,
     model: Annotated[
         ModelName,
-        MotionChoice,
-        MotionOption,
         typer.Option(
             metavar="MODEL",
             help="multibody: body and wings with mass, joints prescribed or compliant (Exudyn). "

@@ -33,13 +33,6 @@ _INSTANTS_PER_NODE = 2
 _PHI, _THETA = SPACE_STATES.index("phi"), SPACE_STATES.index("theta")
 
 
-def world_velocity(states: FloatArray) -> FloatArray:
-    """Forward speed and climb rate (K, 2) m/s in planar motion, from states u, w, q, theta ..."""
-    u, w, theta = states[:, 0], states[:, 1], states[:, 3]
-    c, s = np.cos(theta), np.sin(theta)
-    return np.column_stack([u * c + w * s, u * s - w * c])
-
-
 def _mean(values: FloatArray) -> FloatArray:
     """Mean over a beat of values (K, ...), by the trapezoidal rule, spectrally accurate here."""
     return np.asarray(values[:-1].mean(axis=0))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -82,7 +81,7 @@ def _plane(lateral: float) -> Plane:
 
 def _frequency(cycle: LimitCycle, k: int) -> float:
     """Angular frequency of a mode, rad per period, up to half a turn."""
-    return abs(math.atan2(cycle.multipliers[k].imag, cycle.multipliers[k].real))
+    return float(np.abs(np.angle(cycle.multipliers[k])))
 
 
 def _pairs(cycle: LimitCycle, chosen: list[int]) -> list[int]:

@@ -155,7 +155,7 @@ def _of_both_wings(
     placed: Elements, frame: Airframe, twist: FloatArray
 ) -> tuple[ElementLoads, ElementLoads]:
     """Loads of the right wing and, mirrored onto it, of the left one."""
-    if twist[1] == 0.0 and twist[3] == 0.0 and twist[5] == 0.0:
+    if twist[1] == 0.0 and twist[3] == 0.0 and twist[5] == 0.0:  # one wing tells of both
         u, w, q = twist[0], twist[2], twist[4]
         found = element_loads(placed, frame.density, frame.profile, u, w, q)
         return found, found

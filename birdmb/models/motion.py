@@ -15,6 +15,7 @@ from typing import Literal
 import numpy as np
 
 from birdmb._typing import BoolArray, FloatArray, IntArray
+from birdmb.errors import ArgumentError
 
 MotionName = Literal["planar", "free"]
 
@@ -23,6 +24,7 @@ _UNITS = ("m/s",) * 3 + ("rad/s",) * 3 + ("rad",) * 2
 _SCALE = (10.0, 2.0, 2.0, 1.0, 1.0, 1.0, 0.2, 0.2)
 _LATERAL = ("v", "p", "r", "phi")
 _TWIST = 6
+_PHI, _THETA = 6, 7
 
 
 @dataclass(frozen=True)
@@ -74,11 +76,11 @@ FREE = Motion("free", SPACE_STATES)
 
 
 def motion_named(name: str) -> Motion:
-    """The motion of a name; raises `ValueError` where there is none."""
+    """The motion of a name; raises `ArgumentError` where there is none."""
     for motion in (PLANAR, FREE):
         if motion.name == name:
             return motion
-    raise ValueError(f'motion must be "planar" or "free", not "{name}".')
+    raise ArgumentError(f'motion must be "planar" or "free", not "{name}".')
 
 
 def heading_velocity(space: FloatArray) -> FloatArray:
@@ -86,12 +88,13 @@ def heading_velocity(space: FloatArray) -> FloatArray:
 
     Of states in space (K, 8).
     """
-    u, v, w, phi, theta = space[:, [0, 1, 2, 6, 7]].T
-    c, s, cr, sr = np.cos(theta), np.sin(theta), np.cos(phi), np.sin(phi)
-    forward = u * c + (v * sr + w * cr) * s
-    right = v * cr - w * sr
-    up = u * s - (v * sr + w * cr) * c
-    return np.column_stack([forward, right, up])
+    forward, right, down = np.einsum("kba,kb->ak", _heading_in_body(space), space[:, :3])
+    return np.column_stack([forward, right, -down])
+
+
+def planar_velocity(states: FloatArray) -> FloatArray:
+    """Forward speed and climb rate (K, 2) m/s of states (K, n) in planar motion."""
+    return heading_velocity(PLANAR.in_space(states))[:, [0, 2]]
 
 
 def heading_rate(space: FloatArray) -> FloatArray:
@@ -105,10 +108,12 @@ def along_body(space: FloatArray, air: FloatArray) -> FloatArray:
 
     In the attitude of states in space (K, 8).
     """
-    phi, theta = space[:, [6, 7]].T
+    return np.asarray(np.einsum("kba,ka->kb", _heading_in_body(space), air))
+
+
+def _heading_in_body(space: FloatArray) -> FloatArray:
+    """Axes of the heading, forward, right and down, along the body's; columns of (K, 3, 3)."""
+    phi, theta = space[:, [_PHI, _THETA]].T
     c, s, cr, sr = np.cos(theta), np.sin(theta), np.cos(phi), np.sin(phi)
-    forward, right, down = air.T
-    across = forward * s + down * c
-    return np.column_stack(
-        [forward * c - down * s, right * cr + across * sr, across * cr - right * sr]
-    )
+    rows = [[c, 0.0 * c, -s], [s * sr, cr, c * sr], [s * cr, -sr, c * cr]]
+    return np.moveaxis(np.array(rows), 2, 0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, overload
+from typing import Any, Literal, TypedDict, Unpack, overload
 
 import numpy.typing as npt
 
@@ -50,21 +50,26 @@ class Attempt:
     found: int
 
 
+class CoexistingOptions(TypedDict, total=False):
+    """What `find_limit_cycles` takes besides model and starts."""
+
+    method: SearchMethod
+    period_guess: float | Sequence[float] | None
+    start_time: float
+    known: Sequence[LimitCycle]
+    tolerance: float
+    accuracy: float
+    max_iterations: int
+    deflations: int
+    key: Callable[[LimitCycle], Any] | None
+    callback: Callable[[Attempt], None] | None
+
+
 @overload
 def find_limit_cycles(
     model: ModelWithCycles[CycleT],
     starts: Sequence[Guess] | None = ...,
-    *,
-    method: SearchMethod = ...,
-    period_guess: float | Sequence[float] | None = ...,
-    start_time: float = ...,
-    known: Sequence[LimitCycle] = ...,
-    tolerance: float = ...,
-    accuracy: float = ...,
-    max_iterations: int = ...,
-    deflations: int = ...,
-    key: Callable[[LimitCycle], Any] | None = ...,
-    callback: Callable[[Attempt], None] | None = ...,
+    **options: Unpack[CoexistingOptions],
 ) -> list[CycleT]: ...
 
 
@@ -72,17 +77,7 @@ def find_limit_cycles(
 def find_limit_cycles(
     model: Model,
     starts: Sequence[Guess] | None = ...,
-    *,
-    method: SearchMethod = ...,
-    period_guess: float | Sequence[float] | None = ...,
-    start_time: float = ...,
-    known: Sequence[LimitCycle] = ...,
-    tolerance: float = ...,
-    accuracy: float = ...,
-    max_iterations: int = ...,
-    deflations: int = ...,
-    key: Callable[[LimitCycle], Any] | None = ...,
-    callback: Callable[[Attempt], None] | None = ...,
+    **options: Unpack[CoexistingOptions],
 ) -> list[LimitCycle]: ...
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import Executor
-from typing import Literal, TypeVar, get_args, overload
+from typing import Literal, TypedDict, TypeVar, Unpack, get_args, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -35,24 +35,29 @@ _MOST_NODES = 1025
 NEAR = 0.01
 
 
+class SearchOptions(TypedDict, total=False):
+    """What `find_limit_cycle` takes besides model and guess."""
+
+    method: SearchMethod
+    period_guess: float | None
+    start_time: float
+    damping: Damping
+    tolerance: float
+    max_iterations: int
+    nodes: int | None
+    accuracy: float
+    segments: int | None
+    jacobian: Literal["auto", "variational", "finite-differences"]
+    jacobian_guess: npt.ArrayLike | None
+    executor: Executor | None
+    callback: Callable[[Iteration], None] | None
+
+
 @overload
 def find_limit_cycle(
     model: ModelWithCycles[CycleT],
     guess: npt.ArrayLike | FloquetResult | None = ...,
-    *,
-    method: SearchMethod = ...,
-    period_guess: float | None = ...,
-    start_time: float = ...,
-    damping: Damping = ...,
-    tolerance: float = ...,
-    max_iterations: int = ...,
-    nodes: int | None = ...,
-    accuracy: float = ...,
-    segments: int | None = ...,
-    jacobian: Literal["auto", "variational", "finite-differences"] = ...,
-    jacobian_guess: npt.ArrayLike | None = ...,
-    executor: Executor | None = ...,
-    callback: Callable[[Iteration], None] | None = ...,
+    **options: Unpack[SearchOptions],
 ) -> CycleT: ...
 
 
@@ -60,20 +65,7 @@ def find_limit_cycle(
 def find_limit_cycle(
     model: Model,
     guess: npt.ArrayLike | FloquetResult | None = ...,
-    *,
-    method: SearchMethod = ...,
-    period_guess: float | None = ...,
-    start_time: float = ...,
-    damping: Damping = ...,
-    tolerance: float = ...,
-    max_iterations: int = ...,
-    nodes: int | None = ...,
-    accuracy: float = ...,
-    segments: int | None = ...,
-    jacobian: Literal["auto", "variational", "finite-differences"] = ...,
-    jacobian_guess: npt.ArrayLike | None = ...,
-    executor: Executor | None = ...,
-    callback: Callable[[Iteration], None] | None = ...,
+    **options: Unpack[SearchOptions],
 ) -> LimitCycle: ...
 
 

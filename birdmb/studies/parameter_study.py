@@ -38,8 +38,7 @@ def parameter_study(
         `multiplier_error` (multiplier, largest modulus first), `mean_speed`, `mean_climb_rate`
         (m/s), `path_angle` (rad), `power` (W, `FlightCycle.power`), `residual`. As texts, empty
         where all is well: `warning`, how the cycle leaves the model's validity
-        (`assess_validity`), and
-        `failure`, why there is no cycle, all numbers then being NaN.
+        (`assess_validity`), and `failure`, why there is no cycle, all numbers then being NaN.
 
     Raises:
         TopologyError: an unknown name. A value that is impossible only fails by itself.

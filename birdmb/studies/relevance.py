@@ -9,7 +9,7 @@ from itertools import chain, islice
 from typing import Any
 
 from birdmb.errors import ArgumentError, TopologyError
-from birdmb.models import RigidModel
+from birdmb.models import BirdModel, RigidModel
 from birdmb.studies.cycles import ModelFactory
 from birdmb.topology import Bird
 from birdmb.topology.parts import BONES
@@ -57,11 +57,14 @@ def _without_effect(name: str, reason: str) -> ArgumentError:
 def ignored_values(bird: Bird, model: ModelFactory) -> dict[str, str]:
     """Why a model ignores values of any bird like this, by dotted name; empty if it uses all."""
     kind: Any = model
-    motion = "planar"
+    options: dict[str, Any] = {}
     while isinstance(kind, partial):
-        motion, kind = kind.keywords.get("motion", motion), kind.func
-    names = {} if motion == "free" else dict.fromkeys(_OF_MOTION_IN_SPACE, _PLANAR)
-    if not (isinstance(kind, type) and issubclass(kind, RigidModel)):
+        options, kind = kind.keywords | options, kind.func
+    if not (isinstance(kind, type) and issubclass(kind, BirdModel)):
+        return {}  # of a function of the user's nothing is known
+    planar = options.get("motion", kind.motion.name) == "planar"
+    names = dict.fromkeys(_OF_MOTION_IN_SPACE, _PLANAR) if planar else {}
+    if not issubclass(kind, RigidModel):
         return names
     springs = (
         "the rigid model has no springs, all joints follow their drivers; take the multibody model"

@@ -13,7 +13,7 @@ import numpy as np
 
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
-from birdmb.models.flight_cycle import world_velocity
+from birdmb.models.motion import planar_velocity
 from birdmb.orbits.collocation import (
     Collocated,
     CollocationEquations,
@@ -105,7 +105,7 @@ class CollocatedTrim:
             raise StateError("the parameters left their bounds.")
         states, point = self.unpack(u)
         equations = self.orbit(point)
-        mean = world_velocity(self.path(u)).mean(axis=0)
+        mean = planar_velocity(self.path(u)).mean(axis=0)
         reached = {"climb_rate": mean[1], "speed": np.hypot(*mean)}
         missed = [reached[name] - wanted for name, wanted in self._targets.items()]
         return np.concatenate([equations.residual(states), missed])
@@ -168,7 +168,7 @@ class CollocatedTrim:
         by_state[0, :, 0], by_state[0, :, 1], by_state[0, :, 3] = c, s, down * c - forwards * s
         by_state[1, :, 0], by_state[1, :, 1], by_state[1, :, 3] = s, -c, forwards * c + down * s
         forward, climb = (by_state * scale / self.nodes).reshape(2, -1)
-        mean = world_velocity(x).mean(axis=0)
+        mean = planar_velocity(x).mean(axis=0)
         along, upwards = mean / np.hypot(*mean)
         rows = {"climb_rate": climb, "speed": along * forward + upwards * climb}
         return np.array([rows[name] for name in self._targets])

@@ -13,7 +13,7 @@ import scipy.sparse as sp
 
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
-from birdmb.models.flight_cycle import world_velocity
+from birdmb.models.motion import planar_velocity
 from birdmb.models.wing_model import BirdModel
 from birdmb.orbits.newton import solve
 from birdmb.studies.cycles import KeptModels
@@ -74,7 +74,7 @@ class TrimEquations:
         period = model.bird.period
         flight = model.trajectory(x0, 0.0, period)
         gap = (flight.states[-1] - x0) / model.state_scale
-        velocity = world_velocity(flight.states)
+        velocity = planar_velocity(flight.states)
         mean = 0.5 * (velocity[:-1] + velocity[1:]).mean(axis=0)
         reached = {"climb_rate": float(mean[1]), "speed": float(np.hypot(*mean))}
         missed = [reached[name] - wanted for name, wanted in self._targets.items()]

@@ -120,11 +120,11 @@ def points_and_tangents(
 ) -> tuple[FloatArray, FloatArray]:
     """Points and derivatives by the parameter of a real line at n parameters, each (n, 3) m."""
     n = parameters.size
-    points, tangents = np.empty((n, 3)), np.empty((n, 3))
+    found, tangents = np.empty((n, 3)), np.empty((n, 3))
     for j in range(n):
         s = parameters[j]
         for i in range(3):
-            points[j, i] = line.start[i] + s * line.tangent[i]
+            found[j, i] = line.start[i] + s * line.tangent[i]
             tangents[j, i] = line.tangent[i]
         for k in range(line.corner.size):
             width = line.width[k]
@@ -136,9 +136,9 @@ def points_and_tangents(
                 x = past / width
                 step, ramp = _step_within(x).real, width * _ramp_within(x).real
             for i in range(3):
-                points[j, i] += line.turn[k, i] * ramp
+                found[j, i] += line.turn[k, i] * ramp
                 tangents[j, i] += line.turn[k, i] * step
-    return points, tangents
+    return found, tangents
 
 
 @kernel

@@ -29,9 +29,7 @@ class WingShape(NamedTuple):
     normal: FloatArray  # (N, 3) up
     span_direction: FloatArray  # (N, 3) outwards
     chord: FloatArray  # (N,) m
-    distal_fraction: (
-        FloatArray  # (N, 2) fraction of the element's load carried beyond the elbow, the wrist
-    )
+    distal_fraction: FloatArray  # (N, 2) of the element's load, carried beyond the elbow, the wrist
     converged: bool  # the lifting line was found, and its chords point backwards along the humerus
     hinge_velocity: FloatArray  # (H, N, 3) m, of the control points per rate of each hinge
 

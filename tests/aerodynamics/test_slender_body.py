@@ -47,7 +47,7 @@ def test_it_unsettles_pitch_and_yaw_of_a_bird_and_costs_no_energy(ibis_tail):
     values = {"body.side_area": 0.02, "body.side_coefficient": 0.5, "body.volume": 1.2e-3}
     stout = ibis_tail.with_values(values | {"wing.discretisation": 16})
     slim = ibis_tail.with_values({"wing.discretisation": 16})
-    assert not body_loads(airframe(slim), np.array([14.0, 1.0, -1.0]))[[1, 3, 4, 5], 0][1:].any()
+    assert not body_loads(airframe(slim), np.array([14.0, 1.0, -1.0]))[3:].any()
     slow = {}
     for bird in (stout, slim):
         cycle = birdmb.find_limit_cycle(birdmb.RigidModel(bird, motion="free"))

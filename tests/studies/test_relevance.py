@@ -67,6 +67,7 @@ def test_the_multibody_model_ignores_nothing_but_springs_of_prescribed_joints(bi
     in_space |= {"body.side_area", "body.side_coefficient"}
     assert set(ignored_values(bird, MULTIBODY)) == in_space
     assert not in_space & set(ignored_values(bird, partial(birdmb.RigidModel, motion="free")))
+    assert ignored_values(bird, lambda bird: birdmb.RigidModel(bird, motion="free")) == {}
     unused = unused_values(bird)
     assert DAMPING not in unused
     spring = {"cubic_stiffness": 9.0, "stiffness": 5.0, "damping": 3.0, "stiffness_below": 1.0}
