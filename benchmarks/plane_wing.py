@@ -12,7 +12,8 @@ from rich.console import Console
 from rich.table import Table
 
 from birdmb.aerodynamics.elements import place_elements
-from birdmb.aerodynamics.twist_loads import loads_of_both, mirrored
+from birdmb.aerodynamics.pair import pair_loads
+from birdmb.aerodynamics.twist_loads import mirrored
 from birdmb.wing.shape import WingShape
 
 Wrench = Callable[[np.ndarray], np.ndarray]
@@ -57,7 +58,7 @@ def lifting_line(elements: int) -> Wrench:
     def wrench(twist: np.ndarray) -> np.ndarray:
         right, left = (
             np.append(loads.force.sum(axis=0), np.cross(placed.position, loads.force).sum(axis=0))
-            for loads in loads_of_both(placed, 1.0, 0.0, twist)
+            for loads in pair_loads(placed, placed, False, 1.0, 0.0, twist)
         )
         return np.asarray(right + mirrored(left))
 

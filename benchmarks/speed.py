@@ -11,13 +11,13 @@ from pathlib import Path
 from typing import Literal
 
 import numpy as np
+from birdmb.models.multibody_kernel import air_forces
 from rich.console import Console
 from rich.table import Table
 
 import birdmb
 from birdmb.aerodynamics.prescribed import prescribed_wing, symmetric_loads
 from birdmb.models.exudyn_tree import BODY_COORDINATES, ExudynBird
-from birdmb.models.multibody_kernel import air_forces
 from birdmb.models.springs import spring_torques, springs_of
 
 TOPOLOGIES = Path(__file__).parent.parent / "topologies"

@@ -11,8 +11,8 @@ from rich.console import Console
 from rich.table import Table
 
 import birdmb
-from birdmb.aerodynamics.circulation import element_loads, resultant
 from birdmb.aerodynamics.elements import place_elements
+from birdmb.aerodynamics.pair import pair_loads, pair_wrench
 from birdmb.wing.arrays import WingArrays, wing_arrays
 from birdmb.wing.shape import wing_shape
 
@@ -50,9 +50,10 @@ def lift(wing: WingArrays, elements: int) -> str:
     if not shape.converged:
         return "no line"
     placed = place_elements(shape, wing.root)
-    motion = SPEED * np.cos(ALPHA), SPEED * np.sin(ALPHA), 0.0
-    force = resultant(placed, element_loads(placed, DENSITY, 0.0, *motion).force)
-    return f"{force[0] * np.sin(ALPHA) - force[1] * np.cos(ALPHA):.4f}"
+    twist = np.array([SPEED * np.cos(ALPHA), 0.0, SPEED * np.sin(ALPHA), 0.0, 0.0, 0.0])
+    force = pair_loads(placed, placed, True, DENSITY, 0.0, twist)[0].force
+    wrench = pair_wrench(placed, force, placed, force)
+    return f"{wrench[0] * np.sin(ALPHA) - wrench[2] * np.cos(ALPHA):.4f}"
 
 
 if __name__ == "__main__":

@@ -10,7 +10,6 @@ from .models import (
     MultibodyModel,
     RigidModel,
     StepGust,
-    TetheredModel,
 )
 from .orbits import (
     Branch,
@@ -68,7 +67,6 @@ __all__ = [
     "StepGust",
     "Study",
     "SweepError",
-    "TetheredModel",
     "TopologyError",
     "Trim",
     "TrimError",

@@ -24,7 +24,7 @@ def mean_torques(bird: birdmb.Bird) -> np.ndarray:
     """Torques (2,) N m of the air about the hinges, mean over a beat, if they stay at zero."""
     still = bird.with_values({f"feathers.{name}.hinge.rest": 0.0 for name in FEATHERS})
     beat = birdmb.find_limit_cycle(birdmb.RigidModel(still)).beat
-    return np.mean([loads.joint_torques[-2:] for loads in beat.loads[:-1]], axis=0)
+    return np.mean([loads.right.joint_torques[-2:] for loads in beat.loads[:-1]], axis=0)
 
 
 def flown(bird: birdmb.Bird) -> list[str]:

@@ -1,8 +1,10 @@
 """Lifting-line elements of a symmetric pair of wings and the velocities they induce.
 
-Frame: body axes (x forward, y right, z down), origin at the body's centre of mass G. Only the right
-wing is stored: the left wing is its mirror image, with the same circulation (even parity, as in
-symmetric flight) or the opposite one (odd parity), so its influence is folded into the matrices.
+Frame: body axes (x forward, y right, z down), origin at the body's centre of mass G. A wing is a
+right one, or the mirror image of a left one. Where both wings have the same shape one is stored:
+the other one's circulation is the same (even parity, as in symmetric flight) or the opposite one
+(odd parity), and its influence is folded into the matrices. For wings of different shapes see
+`birdmb.aerodynamics.pair`.
 
 Each wing has N elements between N + 1 nodes. The first node lies on the centre line, beside the
 shoulder: the element at the root spans the gap over the body with the root's chord and control
@@ -97,37 +99,52 @@ def wake_influence(
     """Velocities along y and z, each (N, N) 1/m, at the controls per circulation of each element.
 
     The left wing's circulation is the right one's times the `parity`, 1 or -1.
-
-    A filament of strength G at distance r in the plane across its axis induces G/(4 pi r); the
-    bound vortices' influence on each other is neglected, as published.
     """
     n = position.shape[0]
-    induced_y = np.zeros((n, n))
-    induced_z = np.zeros((n, n))
-    for i in range(n):
-        # The first node lies on the centre line: where both circulations are equal it sheds none.
-        for k in range(1 if parity > 0.0 else 0, n + 1):
-            rz = position[i, 2] - node[k, 2]
-            ry = position[i, 1] - node[k, 1]
-            ry_mirror = position[i, 1] + node[k, 1]
-            square = ry * ry + rz * rz
-            square_mirror = ry_mirror * ry_mirror + rz * rz
-            # On a filament itself, where the line runs along the stream: see `clearance`. That of
-            # the centre line moves no air at itself.
-            itself = 0.0 if k == 0 else np.nan
-            near = 0.25 / (np.pi * square) if square > 0.0 else itself
-            far = parity * 0.25 / (np.pi * square_mirror) if square_mirror > 0.0 else itself
-            # Per unit strength backwards, that of the left wing's image being opposite if even.
-            vy = rz * (near - far)
-            vz = ry_mirror * far - ry * near
-            # Node k sheds the circulation inboard of it minus the one outboard of it.
-            if k < n:
-                induced_y[i, k] -= vy
-                induced_z[i, k] -= vz
-            if k > 0:
-                induced_y[i, k - 1] += vy
-                induced_z[i, k - 1] += vz
+    induced_y, induced_z = np.zeros((n, n)), np.zeros((n, n))
+    # The first node lies on the centre line: where both circulations are equal it sheds none.
+    first = 1 if parity > 0.0 else 0
+    for k in range(first, n + 1):
+        add_vortex(position, node, k, 1.0, 1.0, induced_y, induced_z)
+        add_vortex(position, node, k, -1.0, parity, induced_y, induced_z)
     return induced_y, induced_z
+
+
+@kernel
+def add_vortex(
+    position: FloatArray,
+    node: FloatArray,
+    k: int,
+    side: float,
+    parity: float,
+    induced_y: FloatArray,
+    induced_z: FloatArray,
+) -> None:
+    """Add what the vortex from one node of a wing induces at `position` (N, 3) m on a right wing.
+
+    To velocities along y and z, each (N, N) 1/m, by the circulation of each of that wing's
+    elements, times a `parity`. The `side` is 1 for a right wing, -1 for the left one whose mirror
+    image has its k-th node at `node` (N + 1, 3) m. A filament of strength G at distance r in the
+    plane across its axis induces G/(4 pi r); the bound vortices' influence on each other is
+    neglected, as published.
+    """
+    n = position.shape[0]
+    for i in range(n):
+        ry, rz = position[i, 1] - side * node[k, 1], position[i, 2] - node[k, 2]
+        square = ry * ry + rz * rz
+        # On a filament itself, where the line runs along the stream: see `clearance`. That of the
+        # centre line moves no air at itself.
+        strength = 0.0 if k == 0 else np.nan
+        if square > 0.0:
+            strength = side * parity * 0.25 / (np.pi * square)
+        vy, vz = rz * strength, -ry * strength
+        # Node k sheds the circulation inboard of it minus the one outboard of it.
+        if k < n:
+            induced_y[i, k] -= vy
+            induced_z[i, k] -= vz
+        if k > 0:
+            induced_y[i, k - 1] += vy
+            induced_z[i, k - 1] += vz
 
 
 @kernel
@@ -140,16 +157,27 @@ def circulation_system(elements: Elements) -> FloatArray:
 def system_of(elements: Elements, induced_y: FloatArray, induced_z: FloatArray) -> FloatArray:
     """Matrix (N, N) of the circulation's linear system, system @ Gamma = pi c |U| alpha.
 
-    `induced_y` and `induced_z` (N, N) 1/m are the wake's influence, of either parity. The downwash
-    counts normal to the line's projection on the plane across the body's x axis.
+    `induced_y` and `induced_z` (N, N) 1/m are the wake's influence, of either parity.
     """
-    n = elements.chord.size
-    system = np.empty((n, n))
+    system = downwash_share(elements, induced_y, induced_z)
+    for i in range(elements.chord.size):
+        system[i, i] += 1.0
+    return system
+
+
+@kernel
+def downwash_share(elements: Elements, induced_y: FloatArray, induced_z: FloatArray) -> FloatArray:
+    """What the wake takes off each element's circulation (N, M), per circulation of M elements.
+
+    `induced_y` and `induced_z` (N, M) 1/m are its influence. The downwash counts normal to the
+    line's projection on the plane across the body's x axis.
+    """
+    n, m = induced_y.shape
+    share = np.empty((n, m))
     for i in range(n):
         dy = elements.node[i + 1, 1] - elements.node[i, 1]
         dz = elements.node[i + 1, 2] - elements.node[i, 2]
         scale = np.pi * elements.chord[i] / np.sqrt(dy * dy + dz * dz)
-        for j in range(n):
-            system[i, j] = scale * (induced_z[i, j] * dy - induced_y[i, j] * dz)
-        system[i, i] += 1.0
-    return system
+        for j in range(m):
+            share[i, j] = scale * (induced_z[i, j] * dy - induced_y[i, j] * dz)
+    return share

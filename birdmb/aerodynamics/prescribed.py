@@ -23,8 +23,15 @@ from birdmb.aerodynamics.elements import (
     system_of,
     wake_influence,
 )
+from birdmb.aerodynamics.pair import pair_system
 from birdmb.aerodynamics.tail import TailSurface, tail_influence
-from birdmb.aerodynamics.twist_loads import mirror_sign, mirrored_flow, wing_flow, wing_wrench
+from birdmb.aerodynamics.twist_loads import (
+    element_forces,
+    mirror_sign,
+    mirrored_flow,
+    wing_flow,
+    wing_wrench,
+)
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.stacked import StackedShapes, every_second_shape, shape_at, wing_shapes
 
@@ -136,21 +143,25 @@ def at_phase(stack: Elements, k: int) -> Elements:
     )
 
 
-class OddWing(NamedTuple):
-    """Influences at P phases where the left wing's circulations are opposite to the right one's."""
+class WakeTable(NamedTuple):
+    """Influences at P phases that motion in space needs beside those of even parity.
 
-    induced_y: FloatArray  # (P, N, N) 1/m, as those of `Elements`
-    induced_z: FloatArray  # (P, N, N) 1/m
-    inverse: FloatArray  # (P, N, N) of the circulation's linear system
+    Of both wings of one shape those of odd parity, M = N; of different shapes those of the right
+    wing's circulations, then the left one's, on the right wing, then the left one, M = 2 N.
+    """
+
+    induced_y: FloatArray  # (P, M, M) 1/m, as those of `Elements`
+    induced_z: FloatArray  # (P, M, M) 1/m
+    inverse: FloatArray  # (P, M, M) of the circulation's linear system
 
 
-def no_odd_wing() -> OddWing:
-    """The influences of odd parity of symmetric flight, where none are needed: at no phase."""
-    return OddWing(np.empty((0, 0, 0)), np.empty((0, 0, 0)), np.empty((0, 0, 0)))
+def no_wakes() -> WakeTable:
+    """The influences that symmetric flight needs beside those of even parity: at no phase."""
+    return WakeTable(np.empty((0, 0, 0)), np.empty((0, 0, 0)), np.empty((0, 0, 0)))
 
 
 @kernel
-def odd_wing(wing: PrescribedWing) -> OddWing:
+def odd_wakes(wing: PrescribedWing) -> WakeTable:
     """Influences and inverses of odd parity of a tabulated wing; NaN as in its own inverses."""
     count, n = wing.elements.chord.shape
     induced_y, induced_z = np.empty((count, n, n)), np.empty((count, n, n))
@@ -160,7 +171,21 @@ def odd_wing(wing: PrescribedWing) -> OddWing:
         induced_y[k], induced_z[k] = wake_influence(placed.position, placed.node, ODD)
         if wing.clearance[k] >= 0.0:
             inverse[k] = np.linalg.inv(system_of(placed, induced_y[k], induced_z[k]))
-    return OddWing(induced_y, induced_z, inverse)
+    return WakeTable(induced_y, induced_z, inverse)
+
+
+@kernel
+def pair_wakes(right: PrescribedWing, left: PrescribedWing) -> WakeTable:
+    """Influences and inverses of two tabulated wings of different shapes; NaN as in theirs."""
+    count, n = right.elements.chord.shape
+    induced_y, induced_z = np.empty((count, 2 * n, 2 * n)), np.empty((count, 2 * n, 2 * n))
+    inverse = np.full((count, 2 * n, 2 * n), np.nan)
+    for k in range(count):
+        system = pair_system(at_phase(right.elements, k), at_phase(left.elements, k), False)
+        induced_y[k], induced_z[k] = system.induced_y, system.induced_z
+        if right.clearance[k] >= 0.0 and left.clearance[k] >= 0.0:
+            inverse[k] = np.linalg.inv(system.matrix)
+    return WakeTable(induced_y, induced_z, inverse)
 
 
 @kernel
@@ -174,15 +199,16 @@ def symmetric_loads(
     elements = at_phase(wing.elements, k)
     flow = wing_flow(elements, twist, directions)
     circulation = wing.inverse[k] @ flow.bound
-    total = 2.0 * wing_wrench(
+    forces = element_forces(
         elements,
-        flow,
+        flow.wind,
         circulation,
         elements.induced_y @ circulation,
         elements.induced_z @ circulation,
         frame.density,
         frame.profile,
     )
+    total = 2.0 * wing_wrench(elements, forces)
     for component in (1, 3, 5):  # of the other wing opposite
         total[component] = 0.0
     return total + airframe_loads(frame, wing.at_tail[k] @ circulation, twist, directions)
@@ -190,28 +216,42 @@ def symmetric_loads(
 
 @kernel
 def free_loads(
-    wing: PrescribedWing,
-    odd: OddWing,
+    right: PrescribedWing,
+    left: PrescribedWing,
+    wakes: WakeTable,
     k: int,
     frame: Airframe,
     twist: FloatArray,
     directions: IntArray,
 ) -> FloatArray:
-    """Wrench of the air (6, 1 + d) at the k-th phase on a symmetric bird in any motion, exact."""
-    elements = at_phase(wing.elements, k)
-    right = wing_flow(elements, twist, directions)
-    left = mirrored_flow(elements, twist, directions)
-    even = wing.inverse[k] @ (0.5 * (right.bound + left.bound))
-    opposite = odd.inverse[k] @ (0.5 * (right.bound - left.bound))
-    even_y, even_z = elements.induced_y @ even, elements.induced_z @ even
-    odd_y, odd_z = odd.induced_y[k] @ opposite, odd.induced_z[k] @ opposite
+    """Wrench of the air (6, 1 + d) at the k-th phase on a bird in any motion, exact.
+
+    The `left` wing is mirrored onto the right side.
+    """
+    elements, image = at_phase(right.elements, k), at_phase(left.elements, k)
+    n = elements.chord.size
+    flow = wing_flow(elements, twist, directions)
+    flow_left = mirrored_flow(image, twist, directions)
+    y, z = np.empty((2 * n, directions.size + 1)), np.empty((2 * n, directions.size + 1))
+    gamma = np.empty((2 * n, directions.size + 1))
+    if wakes.inverse.shape[1] == n:
+        even = right.inverse[k] @ (0.5 * (flow.bound + flow_left.bound))
+        odd = wakes.inverse[k] @ (0.5 * (flow.bound - flow_left.bound))
+        even_y, even_z = elements.induced_y @ even, elements.induced_z @ even
+        odd_y, odd_z = wakes.induced_y[k] @ odd, wakes.induced_z[k] @ odd
+        gamma[:n], gamma[n:] = even + odd, even - odd
+        y[:n], y[n:] = even_y + odd_y, even_y - odd_y
+        z[:n], z[n:] = even_z + odd_z, even_z - odd_z
+    else:
+        gamma[:] = wakes.inverse[k] @ np.concatenate((flow.bound, flow_left.bound))
+        y[:], z[:] = wakes.induced_y[k] @ gamma, wakes.induced_z[k] @ gamma
     density, profile = frame.density, frame.profile
-    total = wing_wrench(
-        elements, right, even + opposite, even_y + odd_y, even_z + odd_z, density, profile
-    )
-    image = wing_wrench(
-        elements, left, even - opposite, even_y - odd_y, even_z - odd_z, density, profile
-    )
+    forces = element_forces(elements, flow.wind, gamma[:n], y[:n], z[:n], density, profile)
+    total = wing_wrench(elements, forces)
+    forces = element_forces(image, flow_left.wind, gamma[n:], y[n:], z[n:], density, profile)
+    of_left = wing_wrench(image, forces)
     for component in range(6):
-        total[component] += mirror_sign(component) * image[component]
-    return total + airframe_loads(frame, wing.at_tail[k] @ even, twist, directions)
+        total[component] += mirror_sign(component) * of_left[component]
+    # In the plane of symmetry each wing induces half of what a pair of them would.
+    induced = 0.5 * (right.at_tail[k] @ gamma[:n] + left.at_tail[k] @ gamma[n:])
+    return total + airframe_loads(frame, induced, twist, directions)

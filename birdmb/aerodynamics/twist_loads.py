@@ -1,4 +1,13 @@
-"""Loads of the lifting line on a body that moves in space, with their derivatives by its twist.
+"""Quasi-steady loads of the lifting line on a body that moves in space, and their derivatives.
+
+With U the wind that an element meets, its component along the span removed, and alpha its angle
+to the chord, thin-airfoil theory and the downwash w of the wake give
+
+    Gamma = 1/2 c 2 pi (|U| alpha - w),   w linear in Gamma,
+
+which is one linear system. Each element then feels rho Gamma (U_total x e_t) dl, U_total with the
+induced velocity, and the profile drag 1/2 rho C_d c dl |U| U of the whole wind U without it.
+Everything is in body axes, moments are about the body's centre of mass G.
 
 A twist (6,) is the velocity u, v, w (m/s) of the centre of mass G along the body's axes and the
 angular velocity p, q, r (rad/s) about them; a wrench (6,) the force (N) along and the moment (N m)
@@ -18,14 +27,7 @@ import numpy as np
 
 from birdmb._kernels import kernel
 from birdmb._typing import FloatArray, IntArray
-from birdmb.aerodynamics.circulation import ElementLoads, profile_drag, vortex_forces
-from birdmb.aerodynamics.elements import (
-    ODD,
-    Elements,
-    circulation_system,
-    system_of,
-    wake_influence,
-)
+from birdmb.aerodynamics.elements import Elements
 
 
 class Flow(NamedTuple):
@@ -105,93 +107,62 @@ def mirrored_flow(elements: Elements, twist: FloatArray, directions: IntArray) -
 
 
 @kernel
-def wing_wrench(
+def element_forces(
     elements: Elements,
-    flow: Flow,
+    wind: FloatArray,
     circulation: FloatArray,
     induced_y: FloatArray,
     induced_z: FloatArray,
     density: float,
     profile: float,
 ) -> FloatArray:
-    """Wrench (6, 1 + d) of one wing by lift and profile drag.
+    """Forces (N, 3, 1 + d) N of lift and profile drag on the elements of one wing.
 
-    `circulation` (N, 1 + d) m2/s, `induced_y` and `induced_z` (N, 1 + d) m/s the velocities that
-    the wake induces. Lift acts on the wind with, profile drag on that without these.
+    `wind` (N, 3, 1 + d) m/s is the velocity of the air relative to them, `circulation` (N, 1 + d)
+    m2/s, `induced_y` and `induced_z` (N, 1 + d) m/s the velocities that the wake induces. Lift acts
+    on the wind with, profile drag on that without these.
     """
     n, columns = circulation.shape
-    total = np.zeros((6, columns))
+    forces = np.empty((n, 3, columns))
     for e in range(n):
-        air, t, r = flow.wind[e], elements.span_direction[e], elements.position[e]
+        air, t, force = wind[e], elements.span_direction[e], forces[e]
         gamma = circulation[e, 0]
         ax, ay, az = air[0, 0], air[1, 0], air[2, 0]
         y, z = ay + induced_y[e, 0], az + induced_z[e, 0]
         scale = density * elements.width[e]
         relative = np.sqrt(ax * ax + ay * ay + az * az)
         drag = 0.5 * profile * elements.chord[e]
+        force[0, 0] = scale * (gamma * (y * t[2] - z * t[1]) + drag * relative * ax)
+        force[1, 0] = scale * (gamma * (z * t[0] - ax * t[2]) + drag * relative * ay)
+        force[2, 0] = scale * (gamma * (ax * t[1] - y * t[0]) + drag * relative * az)
+        for m in range(1, columns):
+            wx, wy, wz = air[0, m], air[1, m], air[2, m]
+            dy, dz = wy + induced_y[e, m], wz + induced_z[e, m]
+            g = circulation[e, m]
+            fx = g * (y * t[2] - z * t[1]) + gamma * (dy * t[2] - dz * t[1])
+            fy = g * (z * t[0] - ax * t[2]) + gamma * (dz * t[0] - wx * t[2])
+            fz = g * (ax * t[1] - y * t[0]) + gamma * (wx * t[1] - dy * t[0])
+            slope = (ax * wx + ay * wy + az * wz) / relative
+            force[0, m] = scale * (fx + drag * (slope * ax + relative * wx))
+            force[1, m] = scale * (fy + drag * (slope * ay + relative * wy))
+            force[2, m] = scale * (fz + drag * (slope * az + relative * wz))
+    return forces
+
+
+@kernel
+def wing_wrench(elements: Elements, forces: FloatArray) -> FloatArray:
+    """Wrench (6, 1 + d) about G of `forces` (N, 3, 1 + d) N on the elements of one wing."""
+    n, _, columns = forces.shape
+    total = np.zeros((6, columns))
+    for e in range(n):
+        x, y, z = elements.position[e, 0], elements.position[e, 1], elements.position[e, 2]
+        force = forces[e]
         for m in range(columns):
-            if m == 0:
-                fx = gamma * (y * t[2] - z * t[1]) + drag * relative * ax
-                fy = gamma * (z * t[0] - ax * t[2]) + drag * relative * ay
-                fz = gamma * (ax * t[1] - y * t[0]) + drag * relative * az
-            else:
-                wx, wy, wz = air[0, m], air[1, m], air[2, m]
-                dy, dz = wy + induced_y[e, m], wz + induced_z[e, m]
-                g = circulation[e, m]
-                fx = g * (y * t[2] - z * t[1]) + gamma * (dy * t[2] - dz * t[1])
-                fy = g * (z * t[0] - ax * t[2]) + gamma * (dz * t[0] - wx * t[2])
-                fz = g * (ax * t[1] - y * t[0]) + gamma * (wx * t[1] - dy * t[0])
-                slope = (ax * wx + ay * wy + az * wz) / relative
-                fx += drag * (slope * ax + relative * wx)
-                fy += drag * (slope * ay + relative * wy)
-                fz += drag * (slope * az + relative * wz)
-            total[0, m] += scale * fx
-            total[1, m] += scale * fy
-            total[2, m] += scale * fz
-            total[3, m] += scale * (r[1] * fz - r[2] * fy)
-            total[4, m] += scale * (r[2] * fx - r[0] * fz)
-            total[5, m] += scale * (r[0] * fy - r[1] * fx)
+            fx, fy, fz = force[0, m], force[1, m], force[2, m]
+            total[0, m] += fx
+            total[1, m] += fy
+            total[2, m] += fz
+            total[3, m] += y * fz - z * fy
+            total[4, m] += z * fx - x * fz
+            total[5, m] += x * fy - y * fx
     return total
-
-
-@kernel
-def loads_of_both(
-    elements: Elements, density: float, profile: float, twist: FloatArray
-) -> tuple[ElementLoads, ElementLoads]:
-    """Loads of the elements of the right wing, and of the left one mirrored onto it."""
-    no_derivatives = np.empty(0, np.int64)
-    n = elements.chord.size
-    right = wing_flow(elements, twist, no_derivatives)
-    left = mirrored_flow(elements, twist, no_derivatives)
-    by_odd_y, by_odd_z = wake_influence(elements.position, elements.node, ODD)
-    even, odd = np.full(n, np.nan), np.full(n, np.nan)
-    # The solver refuses what is not finite.
-    if np.isfinite(np.sum(right.bound) + np.sum(left.bound)):
-        even = np.linalg.solve(
-            circulation_system(elements), 0.5 * (right.bound[:, 0] + left.bound[:, 0])
-        )
-        odd = np.linalg.solve(
-            system_of(elements, by_odd_y, by_odd_z), 0.5 * (right.bound[:, 0] - left.bound[:, 0])
-        )
-    even_y, even_z = elements.induced_y @ even, elements.induced_z @ even
-    odd_y, odd_z = by_odd_y @ odd, by_odd_z @ odd
-    return (
-        _loads_in(elements, density, profile, right, even + odd, even_y + odd_y, even_z + odd_z),
-        _loads_in(elements, density, profile, left, even - odd, even_y - odd_y, even_z - odd_z),
-    )
-
-
-@kernel
-def _loads_in(
-    elements: Elements,
-    density: float,
-    profile: float,
-    flow: Flow,
-    circulation: FloatArray,
-    induced_y: FloatArray,
-    induced_z: FloatArray,
-) -> ElementLoads:
-    wind = flow.wind[:, :, 0].copy()
-    drag = profile_drag(elements, density, profile, wind)
-    lift = vortex_forces(elements, density, wind, circulation, induced_y, induced_z)
-    return ElementLoads(circulation, flow.angle_of_attack, flow.speed, lift + drag, drag)

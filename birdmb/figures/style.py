@@ -44,7 +44,7 @@ def symbol(name: str) -> str:
 def stroke_speed(cycle: FlightCycle) -> FloatArray:
     """Speed (K,) m/s at which the wings go down relative to the body, averaged over their area."""
     beat = cycle.beat
-    loads = beat.loads_along.stack
+    loads = beat.loads_along.stack.right
     areas = loads.chord * loads.width
     downwards = loads.velocity[:, :, 2]
     return np.asarray((areas * downwards).sum(axis=1) / areas.sum(axis=1))

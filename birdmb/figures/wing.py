@@ -127,7 +127,7 @@ def _poses(cycle: FlightCycle) -> list[Pose]:
     for phase, t, x in zip(_PHASES, times, cycle.trajectory(times).states, strict=True):
         angles, _ = model.joint_motion(t, x)
         outline = wing_outline(model.wing, angles, discretisation)
-        poses.append(Pose(phase, outline, model.loads(t, x).circulation, _motion(cycle, t)))
+        poses.append(Pose(phase, outline, model.loads(t, x).right.circulation, _motion(cycle, t)))
     return poses
 
 

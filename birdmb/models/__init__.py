@@ -6,10 +6,9 @@ from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.flight_modes import FlightMode
 from birdmb.models.gusts import CosineGust, GaussianGust, Gust, StepGust
-from birdmb.models.loads import Loads, TailLoads
+from birdmb.models.loads import Loads, TailLoads, WingLoads
 from birdmb.models.multibody import MultibodyModel
 from birdmb.models.rigid import RigidModel
-from birdmb.models.tethered import TetheredModel
 from birdmb.models.wing_model import BirdModel
 
 __all__ = [
@@ -26,6 +25,6 @@ __all__ = [
     "RigidModel",
     "StepGust",
     "TailLoads",
-    "TetheredModel",
+    "WingLoads",
     "Work",
 ]

@@ -24,11 +24,13 @@ class Beat:
     loads_along: LoadsAlong
     """At K instants."""
     joint_rates: FloatArray
-    """(K, A) rad/s, of the joints and the feathers' hinges."""
+    """(K, 2, A) rad/s, of joints and feathers' hinges of the right wing and of the left one."""
     actuator_torques: FloatArray
-    """(K, A) N m, of actuators, or springs and dampers, on joints and hinges of both wings."""
+    """(K, 2, A) N m, of actuators, or springs and dampers, on them."""
     driver_rates: FloatArray
-    """(K, A) rad/s, of the joints' drivers; 0 of hinges."""
+    """(K, 2, A) rad/s, of the joints' drivers; 0 of hinges."""
+    holding_power: FloatArray
+    """(K,) W, of what holds the body in its motion; 0 in flight."""
 
     @cached_property
     def loads(self) -> tuple[Loads, ...]:
@@ -52,26 +54,25 @@ class Beat:
 
     @property
     def air_torques(self) -> FloatArray:
-        """Torques of the air (K, A) N m about each joint and hinge, left and right together."""
-        stack = self.loads_along.stack
-        return stack.joint_torques + stack.left_joint_torques
+        """Torques of the air (K, 2, A) N m about joints and hinges of right and left wing."""
+        return self.loads_along.joint_torques
 
     @cached_property
     def joint_power(self) -> FloatArray:
         """Power (K, A) W into each pair of joints or hinges, left and right together."""
-        return self.actuator_torques * self.joint_rates
+        return np.asarray((self.actuator_torques * self.joint_rates).sum(axis=1))
 
     @cached_property
     def air_power(self) -> FloatArray:
         """Power (K,) W of the air on the whole bird: on the body and about the joints."""
         wrench = np.hstack([self.force, self.moment])
-        about_joints = self.air_torques * self.joint_rates
-        return np.asarray((wrench * self.twists).sum(axis=1) + about_joints.sum(axis=1))
+        about_joints = (self.air_torques * self.joint_rates).sum(axis=(1, 2))
+        return np.asarray((wrench * self.twists).sum(axis=1) + about_joints)
 
     @cached_property
     def driver_power(self) -> FloatArray:
         """Power (K, A) W of the drivers of each pair of joints; 0 of hinges."""
-        return self.actuator_torques * self.driver_rates
+        return np.asarray((self.actuator_torques * self.driver_rates).sum(axis=1))
 
     @cached_property
     def dissipation(self) -> FloatArray:

@@ -1,10 +1,11 @@
 """The bird assembled in Exudyn: one kinematic tree of body and both wings.
 
-Coordinates: X (forward), Z (down), pitch angle, then the joints of the right wing in chain order
-and the hinges of its feathers, then those of the left. Prescribed joints are held to their drivers
-by a driven inertia: a second object on the same node whose mass matrix is B on them alone, with a
-force of B times the driver's acceleration. No constraint is left, so Exudyn's explicit integrators
-apply, and a prescribed joint strays from its driver by no more than its loads over B.
+Coordinates: those of the body (`birdmb.models.tree_coordinates`), in space or in the plane of
+symmetry, then the joints of the right wing in chain order and the hinges of its feathers, then
+those of the left. Prescribed joints are held to their drivers by a driven inertia: a second object
+on the same node whose mass matrix is B on them alone, with a force of B times the driver's
+acceleration. No constraint is left, so Exudyn's explicit integrators apply, and a prescribed joint
+strays from its driver by no more than its loads over B.
 """
 
 from __future__ import annotations
@@ -21,19 +22,23 @@ import numpy as np
 from exudyn.itemInterface import NodeGenericODE2, ObjectGenericODE2, ObjectKinematicTree
 from scipy.spatial.transform import Rotation
 
-from birdmb._typing import BoolArray, FloatArray
+from birdmb._typing import BoolArray, FloatArray, IntArray
 from birdmb.errors import StateError
 from birdmb.models.compiled_calls import COMPILED, Carrier, calls_compiled_code
 from birdmb.models.feather_rods import FeatherRod, feather_rods
+from birdmb.models.tree_coordinates import IN_PLANE
 from birdmb.models.tree_kernel import TreeLinks
 from birdmb.topology import BONES, Bird
 
-BODY_COORDINATES = 3
 # Of the bird's own: a prescribed joint strays by one part of this, and round-off does not matter.
 _DRIVEN_INERTIA = 1e13
 _NEXT_TO_NO_MASS = 1e-30
 _MIRROR = np.diag([1.0, -1.0, 1.0])
 _SPAN = np.array([0.0, 1.0, 0.0])
+_SLIDES = (exu.JointType.PrismaticX, exu.JointType.PrismaticY, exu.JointType.PrismaticZ)
+_TURNS = np.eye(3)[::-1]  # axes of yaw, pitch and roll
+# Which way along or about the body's axes each coordinate moves it at zero coordinates.
+_DIRECTION = np.array([0, 1, 2, 5, 4, 3])
 _MASS_MATRIX = exu.ComputeItemType.MassMatrix
 _LEFT_HAND_SIDE = exu.ComputeItemType.ODE2LHS
 
@@ -87,26 +92,36 @@ def _frame_of(axis: tuple[float, ...]) -> FloatArray:
     return np.asarray(rotation.as_matrix())
 
 
-def bird_links(bird: Bird) -> list[_Link]:
-    """Links of the tree: X, Z, pitch, right wing, left wing (body axes at zero coordinates)."""
-    pitch = _axis_frame(np.array([0.0, 1.0, 0.0]))
-    links = [
-        _Link(-1, exu.JointType.PrismaticX, np.zeros(3), np.eye(3)),
-        _Link(0, exu.JointType.PrismaticZ, np.zeros(3), np.eye(3)),
-        _Link(1, exu.JointType.RevoluteZ, np.zeros(3), pitch),
-    ]
-    # Only the pitch inertia can matter in longitudinal flight.
-    inertia = np.diag([0.0, bird.body.inertia_yy, 0.0])
-    links[2].add_body(bird.body.mass, np.zeros(3), pitch.T @ inertia @ pitch)
+def bird_links(bird: Bird, body_coordinates: IntArray) -> list[_Link]:
+    """Links of the tree: body, right wing, left wing (body axes at zero coordinates).
+
+    `body_coordinates` (B,) are those of `tree_coordinates.COORDINATES` that may move.
+    """
+    links: list[_Link] = []
+    axes = np.eye(3)
+    for coordinate in body_coordinates.tolist():
+        parent = len(links) - 1
+        if coordinate < len(_SLIDES):
+            links.append(_Link(parent, _SLIDES[coordinate], np.zeros(3), np.eye(3)))
+        else:
+            frame = _axis_frame(_TURNS[coordinate - len(_SLIDES)])
+            links.append(_Link(parent, exu.JointType.RevoluteZ, np.zeros(3), axes.T @ frame))
+            axes = frame
+    inertia = bird.body.inertia_tensor
+    if body_coordinates.size == IN_PLANE.size:
+        # Only the pitch inertia can matter in longitudinal flight, and the others may be unknown.
+        inertia = np.diag([0.0, bird.body.inertia_yy, 0.0])
+    links[-1].add_body(bird.body.mass, np.zeros(3), axes.T @ inertia @ axes)
     root = np.array([bird.wing.root.x, bird.wing.root.y, bird.wing.root.z])
-    rods = feather_rods(bird)
+    rods, carrier = feather_rods(bird), len(links) - 1
     for side in (np.eye(3), _MIRROR):
-        _add_wing(links, bird, rods, side, side @ root, pitch)
+        _add_wing(links, carrier, bird, rods, side, side @ root, axes)
     return links
 
 
 def _add_wing(
     links: list[_Link],
+    carrier: int,
     bird: Bird,
     rods: Sequence[FeatherRod],
     side: FloatArray,
@@ -114,7 +129,7 @@ def _add_wing(
     body_frame: FloatArray,
 ) -> None:
     # Position and axes of the segment at hand, seen from the frame of the link that carries it.
-    parent, place, axes = 2, body_frame.T @ root, body_frame.T
+    parent, place, axes = carrier, body_frame.T @ root, body_frame.T
     handed = np.linalg.det(side)
     hinges = []
     for bone in BONES:
@@ -148,31 +163,34 @@ def _add_wing(
     links.extend(hinges)
 
 
-def tree_links(bird: Bird) -> TreeLinks:
-    """Body and right wing of the tree, for compiled rates."""
-    links = bird_links(bird)
-    body, wing = links[BODY_COORDINATES - 1], links[BODY_COORDINATES:]
-    wing = wing[: len(wing) // 2]
-    to_body = body.transformation
-    parents = np.array([link.parent for link in wing]) - BODY_COORDINATES
+def tree_links(bird: Bird, body_coordinates: IntArray, *, is_mirrored: bool) -> TreeLinks:
+    """Body and wings of the tree for compiled rates; of mirror images the right wing alone."""
+    links = bird_links(bird, body_coordinates)
+    first = body_coordinates.size
+    body, wings = links[first - 1], links[first:]
+    if is_mirrored:
+        wings = wings[: len(wings) // 2]
+    to_body = _axis_frame(_TURNS[body_coordinates[-1] - len(_SLIDES)])
+    parents = np.array([link.parent for link in wings]) - first
     carried = parents < 0
+    offsets = [
+        to_body @ k.offset if own else k.offset for k, own in zip(wings, carried, strict=True)
+    ]
+    axes = [
+        to_body @ k.transformation if own else k.transformation
+        for k, own in zip(wings, carried, strict=True)
+    ]
     return TreeLinks(
-        parent=parents,
-        offset=np.array(
-            [to_body @ k.offset if own else k.offset for k, own in zip(wing, carried, strict=True)]
-        ),
-        axes=np.array(
-            [
-                to_body @ k.transformation if own else k.transformation
-                for k, own in zip(wing, carried, strict=True)
-            ]
-        ),
-        mass=np.array([link.mass for link in wing]),
-        centre=np.array([link.centre for link in wing]),
-        inertia=np.array([link.inertia for link in wing]),
+        parent=np.where(carried, -1, parents),
+        offset=np.array(offsets),
+        axes=np.array(axes),
+        mass=np.array([link.mass for link in wings]),
+        centre=np.array([link.centre for link in wings]),
+        inertia=np.array([link.inertia for link in wings]),
+        copies=2.0 if is_mirrored else 1.0,
         body_mass=body.mass,
-        body_inertia=float(body.inertia[2, 2]),
-        gravity=bird.gravity,
+        body_inertia=to_body @ body.inertia @ to_body.T,
+        directions=np.sort(_DIRECTION[body_coordinates]),
     )
 
 
@@ -209,10 +227,11 @@ class TreeInertia:
 
     Args:
         bird: the bird.
+        body_coordinates: as for `bird_links`.
     """
 
-    def __init__(self, bird: Bird) -> None:
-        links = bird_links(bird)
+    def __init__(self, bird: Bird, body_coordinates: IntArray) -> None:
+        links = bird_links(bird, body_coordinates)
         self.size = len(links)
         self._container = exu.SystemContainer()
         self._mbs = self._container.AddSystem()
@@ -241,6 +260,7 @@ class ExudynBird:
 
     Args:
         bird: the bird.
+        body_coordinates: as for `bird_links`.
         forces: generalised forces (n,) on all coordinates but gravity and inertia.
         prescribed: which coordinates follow an acceleration given in time.
         driver: their accelerations (n,) at a time; entries of free coordinates are not read.
@@ -249,12 +269,13 @@ class ExudynBird:
     def __init__(
         self,
         bird: Bird,
+        body_coordinates: IntArray,
         forces: CoordinateFunction,
         prescribed: BoolArray,
         driver: TimeFunction,
     ) -> None:
         self._carrier = Carrier()
-        links = bird_links(bird)
+        links = bird_links(bird, body_coordinates)
         n = len(links)
         self._container = exu.SystemContainer()
         self.mbs = self._container.AddSystem()
@@ -263,7 +284,9 @@ class ExudynBird:
         # strongly, this object or the model, would never be freed.
         call_forces, call_driver = _weakly(forces), _weakly(driver)
 
-        inertia = np.where(prescribed, _DRIVEN_INERTIA * typical_inertias(bird, n), 0.0)
+        inertia = np.where(
+            prescribed, _DRIVEN_INERTIA * typical_inertias(bird, body_coordinates, n), 0.0
+        )
 
         # The driven inertia's force acts on the same coordinates: one call instead of two.
         def tree_forces(t: float, _item: int, q: Sequence[float], v: Sequence[float]) -> FloatArray:
@@ -310,11 +333,11 @@ class ExudynBird:
             raise StateError(f"Exudyn stopped: {' '.join(str(error).split())}") from error
 
 
-def typical_inertias(bird: Bird, size: int) -> FloatArray:
+def typical_inertias(bird: Bird, body_coordinates: IntArray, size: int) -> FloatArray:
     """Mass (kg) or moment of inertia (kg m2) that is typical of each coordinate, (size,)."""
     length = sum(getattr(bird.segments, bone).length for bone in BONES)
     typical = np.full(size, bird.total_mass * length**2)
-    typical[:2] = bird.total_mass
+    typical[: np.count_nonzero(body_coordinates < len(_SLIDES))] = bird.total_mass
     return typical
 
 

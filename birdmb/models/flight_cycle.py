@@ -11,13 +11,12 @@ import numpy as np
 import xarray as xr
 
 from birdmb._typing import FloatArray
-from birdmb.aerodynamics.prescribed import driver_motion_along
 from birdmb.errors import ArgumentError
 from birdmb.models.beat import Beat
 from birdmb.models.energy import Work, work_by_sign
 from birdmb.models.flight_modes import FlightMode, flight_modes
 from birdmb.models.loads import DISSIPATORS
-from birdmb.models.motion import SPACE_STATES, heading_rate, heading_velocity
+from birdmb.models.motion import HELD, SPACE_STATES, heading_rate, heading_velocity
 from birdmb.models.quantities import described_by
 from birdmb.models.stepped_cycle import SteppedCycle
 from birdmb.models.wing_model import STEPS_PER_BEAT
@@ -52,6 +51,7 @@ class FlightCycle(SteppedCycle):
         times, states = self._states_of_beat
         loads = model.loads_along(times[:-1], states[:-1])
         torques = model.actuator_torques_along(times[:-1], states[:-1], loads)
+        holding = model.holding_power(times[:-1], states[:-1], loads)
         # The end is the beginning, to the orbit's closure.
         ends = np.append(np.arange(times.size - 1), 0)
         return Beat(
@@ -59,9 +59,10 @@ class FlightCycle(SteppedCycle):
             states=states,
             twists=model.body_in_space(states)[:, :6],
             loads_along=loads.taken(ends),
-            joint_rates=model.joint_motion_along(times, states)[1],
+            joint_rates=model.motion_of_both(times, states)[1],
             actuator_torques=torques[ends],
-            driver_rates=driver_motion_along(model.wing, times)[1],
+            driver_rates=model.drivers_of_both(times)[1],
+            holding_power=holding[ends],
         )
 
     @cached_property
@@ -203,7 +204,7 @@ class FlightCycle(SteppedCycle):
         The loads act on the bones, but the lifting line also moves relative to them, with the
         feathers that fan out; `power` counts that motion, torque times rate does not.
         """
-        by_joints = -(self.beat.air_torques * self.beat.joint_rates).sum(axis=1)
+        by_joints = -(self.beat.air_torques * self.beat.joint_rates).sum(axis=(1, 2))
         return float(_mean(self.beat.wing_power - by_joints))
 
     @property
@@ -216,8 +217,9 @@ class FlightCycle(SteppedCycle):
         joints = self.beat.joint_power.sum(axis=1)
         climb = heading_velocity(model.body_in_space(self.beat.states))[:, 2]
         gravity = -model.mass * model.bird.gravity * climb
-        exchanged = np.abs(joints) + np.abs(self.beat.air_power) + np.abs(gravity)
-        left_over = _mean(joints + self.beat.air_power + gravity)
+        powers = np.array([joints, self.beat.air_power, gravity, self.beat.holding_power])
+        exchanged = np.abs(powers).sum(axis=0)
+        left_over = _mean(powers.sum(axis=0))
         return float(np.abs(left_over) / _mean(exchanged))
 
     @cached_property
@@ -237,6 +239,8 @@ class FlightCycle(SteppedCycle):
     @cached_property
     def why_no_flight(self) -> str | None:
         """Why this motion, though it repeats itself, is no flight; `None` if it is one."""
+        if self.bird_model.motion is HELD:
+            return "the body is held"
         forwards, pitch = self._mean_in_space[[0, _THETA]]
         if np.cos(pitch) <= 0.0:
             angle = f"pitch {np.degrees(pitch):.0f} deg"
@@ -329,7 +333,8 @@ class FlightCycle(SteppedCycle):
         return xr.merge([super().to_xarray(), flight], combine_attrs="no_conflicts")
 
     def _stacked(self, name: str) -> FloatArray:
-        return np.asarray(getattr(self.beat.loads_along.stack, name))
+        wing = self.beat.loads_along.stack.right
+        return np.asarray(wing.force if name == "element_force" else getattr(wing, name))
 
     def plot(self) -> Figure:
         """Draw states, loads and power over a beat, the multipliers and the wing at four phases."""

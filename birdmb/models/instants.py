@@ -1,61 +1,54 @@
-"""What time alone determines of a bird's wing, kept for all who ask for the same instants."""
+"""What time alone determines of a wing, kept for all who ask for the same instants."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.aerodynamics.prescribed import driver_motion, driver_motion_along
-from birdmb.models.exudyn_tree import BODY_COORDINATES
+from birdmb.aerodynamics.prescribed import driver_motion_along
 from birdmb.models.failures import lifting_line_lost
 from birdmb.topology import Bird
 from birdmb.wing.arrays import WingArrays
-from birdmb.wing.shape import WingShape, wing_shape
 from birdmb.wing.stacked import StackedShapes, wing_shapes
 
 _INSTANTS_KEPT = 8192
 
 
-class DriverState(NamedTuple):
-    """What an instant alone determines; its arrays are shared and must not be written to."""
-
-    angles: FloatArray  # (A,) rad, of the drivers
-    rates: FloatArray  # (A,) rad/s
-    accelerations: FloatArray  # (n,) of the drivers, 0 for the body
-    shape: WingShape | None  # with the joints that turn the wing as a whole at zero, if known
-
-
 class StackedInstants(NamedTuple):
-    """What P instants determine, as `DriverState`, each array stacked along a first axis."""
+    """What P instants determine; the arrays are shared and must not be written to."""
 
-    angles: FloatArray  # (P, A)
-    rates: FloatArray  # (P, A)
-    accelerations: FloatArray  # (P, A) of the drivers
-    shapes: StackedShapes | None
+    angles: FloatArray  # (P, A) rad, of the drivers
+    rates: FloatArray  # (P, A) rad/s
+    accelerations: FloatArray  # (P, A) rad/s2
+    shapes: StackedShapes | None  # with the joints at zero that turn the wing, if known
 
 
-class _Kept(NamedTuple):
+@dataclass
+class _Kept:
     """What was made so far."""
 
-    single: dict[float, DriverState]  # by time (s)
-    stacks: dict[bytes, StackedInstants]  # by the times' bytes
+    stacks: dict[bytes, StackedInstants] = field(default_factory=dict)  # by the times' bytes
+    count: int = 0
 
-    def stack(self, times: FloatArray, made: StackedInstants) -> StackedInstants:
-        """Keep a stack of many, in place of all others where they become too many."""
-        if sum(len(each.angles) for each in self.stacks.values()) + times.size > _INSTANTS_KEPT:
+    def keep(self, times: FloatArray, made: StackedInstants) -> StackedInstants:
+        """Keep a stack, in place of all others where they become too many."""
+        self.count += times.size
+        if self.count > _INSTANTS_KEPT:
             self.stacks.clear()
+            self.count = times.size
         self.stacks[times.tobytes()] = made
         return made
 
 
-@lru_cache(maxsize=2)
+@lru_cache(maxsize=4)
 def _kept(_key: tuple[object, ...]) -> _Kept:
     """Kept by all birds with the same wing and drivers."""
-    return _Kept({}, {})
+    return _Kept()
 
 
 class Instants:
@@ -94,12 +87,14 @@ class Instants:
         if found is None:
             angles, rates, accelerations = driver_motion_along(self._wing, times)
             shapes = None if self._shaping else self.shapes(times, angles, rates)
-            made = StackedInstants(angles, rates, accelerations, shapes)
-            found = self._kept.stack(times, made)
+            found = self._kept.keep(times, StackedInstants(angles, rates, accelerations, shapes))
         return found
 
     def shapes(self, times: FloatArray, angles: FloatArray, rates: FloatArray) -> StackedShapes:
-        """The wing at `times` (P,) s, `angles` and `rates` (P, A), as `shape` gives each."""
+        """The wing at `times` (P,) s, `angles` and `rates` (P, A), the joints that turn it at zero.
+
+        Raises `StateError` if no lifting line fits it.
+        """
         moving = np.arange(angles.shape[1]) >= self._rigid_joint_count
         hinges = self._wing.segment.size
         singly = [joint for joint in self._shaping if joint < hinges]
@@ -109,32 +104,3 @@ class Instants:
             k = int(np.argmin(shapes.converged))
             raise lifting_line_lost(self._bird, float(times[k]), angles[k])
         return shapes
-
-    def at(self, t: float) -> DriverState:
-        """What time t (s) determines; raises `StateError` if no lifting line fits the wing."""
-        kept = self._kept.single
-        instant = kept.get(t)
-        if instant is None:
-            if len(kept) >= _INSTANTS_KEPT:
-                kept.clear()
-            instant = kept[t] = self._made(t)
-        return instant
-
-    def shape(self, t: float, angles: FloatArray, rates: FloatArray) -> WingShape:
-        """The wing at t (s) and these angles and rates (A,), the joints that turn it left at zero.
-
-        Raises `StateError` if no lifting line fits it.
-        """
-        moving = np.arange(angles.size) >= self._rigid_joint_count
-        shape = wing_shape(self._wing, moving * angles, moving * rates, *self._discretisation)
-        if not shape.converged:
-            raise lifting_line_lost(self._bird, t, angles)
-        return shape
-
-    def _made(self, t: float) -> DriverState:
-        angles, rates, accelerations = driver_motion(self._wing, t)
-        shape = None if self._shaping else self.shape(t, angles, rates)
-        of_tree = np.concatenate([np.zeros(BODY_COORDINATES), accelerations, accelerations])
-        for shared in (angles, rates, of_tree):
-            shared.flags.writeable = False
-        return DriverState(angles, rates, of_tree, shape)

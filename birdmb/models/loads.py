@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 
 import numpy as np
 
 from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.airframe import Airframe
-from birdmb.models.loads_kernel import StackedLoads
+from birdmb.models.loads_kernel import StackedLoads, StackedWing
 
 DISSIPATORS = ("lift", "profile", "tail", "body")
-_SHARED = (
-    *("force", "moment", "body_force", "body_moment", "joint_torques", "position", "node"),
-    *("velocity", "chord", "width", "element_force", "profile_drag", "circulation"),
-    *("angle_of_attack", "speed"),
-)
+_WHOLE = tuple(name for name in StackedLoads._fields if name not in {"right", "left"})
 
 
 @dataclass(frozen=True)
@@ -34,12 +30,39 @@ class TailLoads:
 
 
 @dataclass(frozen=True)
-class Loads:
-    """Loads of the air on a bird at one instant, in body axes (x forward, y right, z down).
+class WingLoads:
+    """Loads of one wing at one instant, in body axes; of the left one mirrored onto the right side.
 
-    The per-element arrays are of the right wing, from the root outwards; the left wing is its
-    mirror image.
+    Arrays go from the root outwards.
     """
+
+    position: FloatArray
+    """(N, 3) m, control points from G."""
+    node: FloatArray
+    """(N + 1, 3) m, ends of the elements from G, from the centre line to the wing tip."""
+    velocity: FloatArray
+    """(N, 3) m/s, of the control points relative to the body."""
+    chord: FloatArray
+    """(N,) m."""
+    width: FloatArray
+    """(N,) m, along the span."""
+    force: FloatArray
+    """(N, 3) N, profile drag included."""
+    profile_drag: FloatArray
+    """(N, 3) N."""
+    circulation: FloatArray
+    """(N,) m2/s."""
+    angle_of_attack: FloatArray
+    """(N,) rad, between the chord and the wind in the section's plane, without the downwash."""
+    speed: FloatArray
+    """(N,) m/s, of the wind in the section's plane."""
+    joint_torques: FloatArray
+    """(A,) N m, of the air about each joint and each feather's hinge."""
+
+
+@dataclass(frozen=True)
+class Loads:
+    """Loads of the air on a bird at one instant, in body axes (x forward, y right, z down)."""
 
     force: FloatArray
     """(3,) N, resultant of wings, tail and body."""
@@ -53,28 +76,10 @@ class Loads:
     """(3,) N m, of the body, about G."""
     power: float
     """W, that the wings' motion relative to the body takes: minus the sum of force . velocity."""
-    joint_torques: FloatArray
-    """(A,) N m, of the air about each joint and each feather's hinge of the right wing."""
-    position: FloatArray
-    """(N, 3) m, control points from G."""
-    node: FloatArray
-    """(N + 1, 3) m, ends of the elements from G, from the centre line to the wing tip."""
-    velocity: FloatArray
-    """(N, 3) m/s, of the control points relative to the body."""
-    chord: FloatArray
-    """(N,) m."""
-    width: FloatArray
-    """(N,) m, along the span."""
-    element_force: FloatArray
-    """(N, 3) N, profile drag included."""
-    profile_drag: FloatArray
-    """(N, 3) N."""
-    circulation: FloatArray
-    """(N,) m2/s."""
-    angle_of_attack: FloatArray
-    """(N,) rad, between the chord and the wind in the section's plane, without the downwash."""
-    speed: FloatArray
-    """(N,) m/s, of the wind in the section's plane."""
+    right: WingLoads
+    """Of the right wing."""
+    left: WingLoads
+    """Of the left wing, mirrored; in symmetric flight the same as the right one's."""
 
 
 class LoadsAlong:
@@ -90,13 +95,26 @@ class LoadsAlong:
 
     def taken(self, instants: IntArray) -> LoadsAlong:
         """Those at some of the instants (P,)."""
-        return LoadsAlong(StackedLoads(*(each[instants] for each in self.stack)), self._frame)
+        stack = self.stack
+        right, left = (
+            StackedWing(*(array[instants] for array in wing)) for wing in (stack.right, stack.left)
+        )
+        whole = {name: getattr(stack, name)[instants] for name in _WHOLE}
+        return LoadsAlong(StackedLoads(**whole, right=right, left=left), self._frame)
 
     @cached_property
     def power(self) -> FloatArray:
         """Power (K,) W that the wings' motion relative to the body takes."""
-        force = self.stack.element_force + self.stack.left_force
-        return np.asarray(-(force * self.stack.velocity).sum(axis=(1, 2)))
+        right, left = (
+            (wing.force * wing.velocity).sum(axis=(1, 2))
+            for wing in (self.stack.right, self.stack.left)
+        )
+        return np.asarray(-right - left)
+
+    @property
+    def joint_torques(self) -> FloatArray:
+        """Torques (K, 2, A) N m about joints and hinges of the right wing and of the left one."""
+        return np.stack([self.stack.right.joint_torques, self.stack.left.joint_torques], axis=1)
 
     def at(self, k: int) -> Loads:
         """Those at the k-th instant."""
@@ -107,9 +125,16 @@ class LoadsAlong:
             angle_of_attack=float(stack.tail_angle[k]),
             downwash=float(stack.tail_downwash[k]),
         )
-        shared = {name: getattr(stack, name)[k] for name in _SHARED}
-        power = float(self.power[k])
-        return Loads(tail=of_tail if tail.span > 0.0 else None, power=power, **shared)
+        return Loads(
+            force=stack.force[k],
+            moment=stack.moment[k],
+            tail=of_tail if tail.span > 0.0 else None,
+            body_force=stack.body_force[k],
+            body_moment=stack.body_moment[k],
+            power=float(self.power[k]),
+            right=_wing_at(stack.right, k),
+            left=_wing_at(stack.left, k),
+        )
 
     def dissipation(self, twists: FloatArray) -> FloatArray:
         """Power (K, 4) W that each load takes from a bird that moves so in still air.
@@ -120,21 +145,22 @@ class LoadsAlong:
         """
         stack, tail = self.stack, self._frame.tail
         wing, profile = np.zeros(len(twists)), np.zeros(len(twists))
-        for side, force, drag in (
-            (1.0, stack.element_force, stack.profile_drag),
-            (-1.0, stack.left_force, stack.left_profile_drag),
-        ):
+        for side, each in ((1.0, stack.right), (-1.0, stack.left)):
             mirror = np.array([1.0, side, 1.0])
             moving = twists[:, :3] * mirror, twists[:, 3:] * mirror * side
-            velocity = stack.velocity + _point_velocity(*moving, stack.position)
-            wing -= (force * velocity).sum(axis=(1, 2))
-            profile -= (drag * velocity).sum(axis=(1, 2))
+            velocity = each.velocity + _point_velocity(*moving, each.position)
+            wing -= (each.force * velocity).sum(axis=(1, 2))
+            profile -= (each.profile_drag * velocity).sum(axis=(1, 2))
         at_tail = np.broadcast_to([tail.x, 0.0, tail.z], (len(twists), 1, 3))
         tail_moves = _point_velocity(twists[:, :3], twists[:, 3:], at_tail)[:, 0]
         of_tail = -(stack.tail_force * tail_moves).sum(axis=1)
         of_body = np.hstack([stack.body_force, stack.body_moment])
         of_body = -(of_body * twists).sum(axis=1)
         return np.column_stack([wing - profile, profile, of_tail, of_body])
+
+
+def _wing_at(stack: StackedWing, k: int) -> WingLoads:
+    return WingLoads(**{f.name: getattr(stack, f.name)[k] for f in fields(WingLoads)})
 
 
 def _point_velocity(velocity: FloatArray, spin: FloatArray, position: FloatArray) -> FloatArray:

@@ -9,22 +9,36 @@ import numpy as np
 from birdmb._kernels import kernel
 from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.airframe import Airframe, body_loads, tail_wind
-from birdmb.aerodynamics.circulation import ElementLoads, element_loads
-from birdmb.aerodynamics.elements import Elements, clearance, place_elements
-from birdmb.aerodynamics.joints import hinge_torques, joint_torques
+from birdmb.aerodynamics.elements import clearance
+from birdmb.aerodynamics.pair import ElementLoads, pair_loads, pair_wrench
 from birdmb.aerodynamics.tail import tail_angle, tail_force, tail_influence
-from birdmb.aerodynamics.twist_loads import loads_of_both
+from birdmb.models.placed_wing import PlacedWing, place_wing, torques_of
 from birdmb.wing.arrays import WingArrays
-from birdmb.wing.chain import frame_after, joint_chain
-from birdmb.wing.shape import turned
 from birdmb.wing.stacked import StackedShapes, shape_at
 
 
-class StackedLoads(NamedTuple):
-    """Loads at K instants, in body axes; element by element those of the right wing.
+class StackedWing(NamedTuple):
+    """One wing and its loads at K instants, in body axes; the left one mirrored.
 
-    Mirroring changes the sign of what points along y.
+    Mirroring onto the right side changes the sign of what points along y.
     """
+
+    position: FloatArray  # (K, N, 3) m
+    node: FloatArray  # (K, N + 1, 3) m
+    velocity: FloatArray  # (K, N, 3) m/s, relative to the body
+    chord: FloatArray  # (K, N) m
+    width: FloatArray  # (K, N) m
+    force: FloatArray  # (K, N, 3) N, profile drag included
+    profile_drag: FloatArray  # (K, N, 3) N
+    circulation: FloatArray  # (K, N) m2/s
+    angle_of_attack: FloatArray  # (K, N) rad, geometric
+    speed: FloatArray  # (K, N) m/s, in the section's plane
+    joint_torques: FloatArray  # (K, A) N m, about joints and hinges
+    clearance: FloatArray  # (K,) m, from the plane of symmetry
+
+
+class StackedLoads(NamedTuple):
+    """Loads at K instants, in body axes."""
 
     force: FloatArray  # (K, 3) N, resultant of wings, tail and body
     moment: FloatArray  # (K, 3) N m, about G
@@ -33,51 +47,13 @@ class StackedLoads(NamedTuple):
     tail_downwash: FloatArray  # (K,) m/s along z
     body_force: FloatArray  # (K, 3) N
     body_moment: FloatArray  # (K, 3) N m
-    joint_torques: FloatArray  # (K, A) N m, about joints and hinges
-    position: FloatArray  # (K, N, 3) m
-    node: FloatArray  # (K, N + 1, 3) m
-    velocity: FloatArray  # (K, N, 3) m/s, relative to the body
-    chord: FloatArray  # (K, N) m
-    width: FloatArray  # (K, N) m
-    element_force: FloatArray  # (K, N, 3) N, profile drag included
-    profile_drag: FloatArray  # (K, N, 3) N
-    circulation: FloatArray  # (K, N) m2/s
-    angle_of_attack: FloatArray  # (K, N) rad, geometric
-    speed: FloatArray  # (K, N) m/s, in the section's plane
-    left_force: FloatArray  # (K, N, 3) N, on the left wing, mirrored onto the right one
-    left_profile_drag: FloatArray  # (K, N, 3) N, likewise
-    left_circulation: FloatArray  # (K, N) m2/s, likewise
-    left_joint_torques: FloatArray  # (K, A) N m, likewise
-    clearance: FloatArray  # (K,) m, of the wings from the plane of symmetry
+    right: StackedWing
+    left: StackedWing
 
 
 @kernel
-def loads_along(
-    wing: WingArrays,
-    shapes: StackedShapes,
-    shape_of: IntArray,
-    rigid_joint_count: int,
-    frame: Airframe,
-    angles: FloatArray,
-    rates: FloatArray,
-    twists: FloatArray,
-) -> StackedLoads:
-    """Loads at K instants; NaN where the wings are across the plane of symmetry.
-
-    `shape_of` (K,) tells which of the stacked `shapes` belongs to an instant, with the first
-    `rigid_joint_count` joints at zero; `angles` and `rates` (K, A) are those of joints and hinges,
-    `twists` (K, 6) m/s and rad/s the body's relative to the air.
-    """
-    (count, joints), n = angles.shape, shapes.chord.shape[1]
-    stack = StackedLoads(
-        np.full((count, 3), np.nan),
-        np.full((count, 3), np.nan),
-        np.zeros((count, 3)),
-        np.full(count, np.nan),
-        np.zeros(count),
-        np.zeros((count, 3)),
-        np.zeros((count, 3)),
-        np.full((count, joints), np.nan),
+def _no_wing(count: int, n: int, joints: int) -> StackedWing:
+    return StackedWing(
         np.empty((count, n, 3)),
         np.empty((count, n + 1, 3)),
         np.empty((count, n, 3)),
@@ -88,75 +64,95 @@ def loads_along(
         np.full((count, n), np.nan),
         np.full((count, n), np.nan),
         np.full((count, n), np.nan),
-        np.full((count, n, 3), np.nan),
-        np.full((count, n, 3), np.nan),
-        np.full((count, n), np.nan),
         np.full((count, joints), np.nan),
         np.empty(count),
     )
+
+
+@kernel
+def loads_along(
+    wing: WingArrays,
+    shapes: tuple[StackedShapes, StackedShapes],
+    shape_of: IntArray,
+    rigid_joint_count: int,
+    frame: Airframe,
+    angles: FloatArray,
+    rates: FloatArray,
+    twists: FloatArray,
+) -> StackedLoads:
+    """Loads at K instants; NaN where a wing is across the plane of symmetry.
+
+    Of the right and the left wing `shape_of` (2, K) tells which of its stacked `shapes` belongs to
+    an instant, with the first `rigid_joint_count` joints at zero; `angles` and `rates` (K, 2, A)
+    are those of joints and hinges, `twists` (K, 6) m/s and rad/s the body's relative to the air.
+    """
+    count, _, joints = angles.shape
+    n = shapes[0].chord.shape[1]
+    stack = StackedLoads(
+        np.full((count, 3), np.nan),
+        np.full((count, 3), np.nan),
+        np.zeros((count, 3)),
+        np.full(count, np.nan),
+        np.zeros(count),
+        np.zeros((count, 3)),
+        np.zeros((count, 3)),
+        _no_wing(count, n, joints),
+        _no_wing(count, n, joints),
+    )
     tail = frame.tail
     for k in range(count):
-        chain = joint_chain(wing, angles[k])
-        shape = shape_at(shapes, shape_of[k])
-        if rigid_joint_count > 0:
-            spin = np.zeros(3)
-            for j in range(rigid_joint_count):
-                spin += rates[k, j] * chain.axis[j]
-            shape = turned(shape, frame_after(wing, angles[k], rigid_joint_count), spin)
-        placed = place_elements(shape, wing.root)
-        stack.position[k], stack.node[k] = placed.position, placed.node
-        stack.velocity[k] = placed.velocity
-        stack.chord[k], stack.width[k] = placed.chord, placed.width
-        stack.clearance[k] = clearance(placed)
-        if not stack.clearance[k] >= 0.0:
+        twist = twists[k]
+        right = place_wing(
+            wing, shape_at(shapes[0], shape_of[0, k]), rigid_joint_count, angles[k, 0], rates[k, 0]
+        )
+        left = right
+        alike = np.all(angles[k, 0] == angles[k, 1]) and np.all(rates[k, 0] == rates[k, 1])
+        if not alike:
+            shape = shape_at(shapes[1], shape_of[1, k])
+            left = place_wing(wing, shape, rigid_joint_count, angles[k, 1], rates[k, 1])
+        _keep_wing(stack.right, k, right)
+        _keep_wing(stack.left, k, left)
+        if not (stack.right.clearance[k] >= 0.0 and stack.left.clearance[k] >= 0.0):
             continue
-        right, left = _of_both_wings(placed, frame, twists[k])
-        stack.element_force[k], stack.profile_drag[k] = right.force, right.profile_drag
-        stack.left_force[k], stack.left_profile_drag[k] = left.force, left.profile_drag
-        stack.circulation[k], stack.left_circulation[k] = right.circulation, left.circulation
-        stack.angle_of_attack[k], stack.speed[k] = right.angle_of_attack, right.speed
-        for force, torques in (
-            (right.force, stack.joint_torques[k]),
-            (left.force, stack.left_joint_torques[k]),
-        ):
-            about_joints = joint_torques(wing, chain, placed.position, force, shape.distal_fraction)
-            torques[: about_joints.size] = about_joints
-            torques[about_joints.size :] = hinge_torques(shape.hinge_velocity, force)
-        of_body = body_loads(frame, twists[k, :3])[:, 0]
-        stack.body_force[k] = of_body[:3]
+        is_mirrored = bool(alike and twist[1] == 0.0 and twist[3] == 0.0 and twist[5] == 0.0)
+        of_right, of_left = pair_loads(
+            right.elements, left.elements, is_mirrored, frame.density, frame.profile, twist
+        )
+        _keep_loads(stack.right, k, of_right, torques_of(wing, right, of_right.force))
+        _keep_loads(stack.left, k, of_left, torques_of(wing, left, of_left.force))
+        of_body = body_loads(frame, twist[:3])[:, 0]
+        stack.body_force[k], stack.body_moment[k] = of_body[:3], of_body[3:]
         if tail.span > 0.0:
-            even = 0.5 * (right.circulation + left.circulation)
-            induced = tail_influence(tail, placed.node) @ even
-            wind = tail_wind(tail, induced, twists[k])
+            # In the plane of symmetry each wing induces half of what a pair of them would.
+            induced = 0.5 * (
+                tail_influence(tail, right.elements.node) @ of_right.circulation
+                + tail_influence(tail, left.elements.node) @ of_left.circulation
+            )
+            wind = tail_wind(tail, induced, twist)
             stack.tail_force[k] = tail_force(tail, frame.density, wind)[:, 0]
             stack.tail_angle[k] = tail_angle(tail, wind[0], wind[2])
             stack.tail_downwash[k] = induced[1]
-        stack.body_moment[k] = of_body[3:]
-        stack.force[k] = stack.tail_force[k] + stack.body_force[k]
+        wrench = pair_wrench(right.elements, of_right.force, left.elements, of_left.force)
         fx, fy, fz = stack.tail_force[k]
-        stack.moment[k, 0] = stack.body_moment[k, 0] - tail.z * fy
-        stack.moment[k, 1] = stack.body_moment[k, 1] + tail.z * fx - tail.x * fz
-        stack.moment[k, 2] = stack.body_moment[k, 2] + tail.x * fy
-        for side, of_wing in ((1.0, right.force), (-1.0, left.force)):
-            for e in range(n):
-                x, y, z = placed.position[e]
-                fx, fy, fz = of_wing[e]
-                stack.force[k, 0] += fx
-                stack.force[k, 1] += side * fy
-                stack.force[k, 2] += fz
-                stack.moment[k, 0] += side * (y * fz - z * fy)
-                stack.moment[k, 1] += z * fx - x * fz
-                stack.moment[k, 2] += side * (x * fy - y * fx)
+        stack.force[k] = wrench[:3] + stack.tail_force[k] + stack.body_force[k]
+        stack.moment[k] = wrench[3:] + stack.body_moment[k]
+        stack.moment[k, 0] -= tail.z * fy
+        stack.moment[k, 1] += tail.z * fx - tail.x * fz
+        stack.moment[k, 2] += tail.x * fy
     return stack
 
 
 @kernel
-def _of_both_wings(
-    placed: Elements, frame: Airframe, twist: FloatArray
-) -> tuple[ElementLoads, ElementLoads]:
-    """Loads of the right wing and, mirrored onto it, of the left one."""
-    if twist[1] == 0.0 and twist[3] == 0.0 and twist[5] == 0.0:  # one wing tells of both
-        u, w, q = twist[0], twist[2], twist[4]
-        found = element_loads(placed, frame.density, frame.profile, u, w, q)
-        return found, found
-    return loads_of_both(placed, frame.density, frame.profile, twist)
+def _keep_wing(stack: StackedWing, k: int, placed: PlacedWing) -> None:
+    elements = placed.elements
+    stack.position[k], stack.node[k] = elements.position, elements.node
+    stack.velocity[k] = elements.velocity
+    stack.chord[k], stack.width[k] = elements.chord, elements.width
+    stack.clearance[k] = clearance(elements)
+
+
+@kernel
+def _keep_loads(stack: StackedWing, k: int, loads: ElementLoads, torques: FloatArray) -> None:
+    stack.force[k], stack.profile_drag[k] = loads.force, loads.profile_drag
+    stack.circulation[k], stack.angle_of_attack[k] = loads.circulation, loads.angle_of_attack
+    stack.speed[k], stack.joint_torques[k] = loads.speed, torques

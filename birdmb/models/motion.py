@@ -17,7 +17,7 @@ import numpy as np
 from birdmb._typing import BoolArray, FloatArray, IntArray
 from birdmb.errors import ArgumentError
 
-MotionName = Literal["planar", "free"]
+MotionName = Literal["planar", "free", "held"]
 
 SPACE_STATES = ("u", "v", "w", "p", "q", "r", "phi", "theta")
 _UNITS = ("m/s",) * 3 + ("rad/s",) * 3 + ("rad",) * 2
@@ -42,7 +42,7 @@ class Motion:
     @cached_property
     def indices(self) -> IntArray:
         """Positions (m,) of the states among those in space."""
-        return np.array([SPACE_STATES.index(name) for name in self.states])
+        return np.array([SPACE_STATES.index(name) for name in self.states], dtype=np.int64)
 
     @cached_property
     def directions(self) -> IntArray:
@@ -62,7 +62,7 @@ class Motion:
     @property
     def lateral(self) -> BoolArray:
         """Which (m,) of the states are lateral: mirroring the bird changes their sign."""
-        return np.array([name in _LATERAL for name in self.states])
+        return np.array([name in _LATERAL for name in self.states], dtype=bool)
 
     def in_space(self, states: FloatArray) -> FloatArray:
         """States in space (K, 8) of `states` (K, n), the first m of which are the body's."""
@@ -73,14 +73,17 @@ class Motion:
 
 PLANAR = Motion("planar", ("u", "w", "q", "theta"))
 FREE = Motion("free", SPACE_STATES)
+HELD = Motion("held", ())
 
 
-def motion_named(name: str) -> Motion:
-    """The motion of a name; raises `ArgumentError` where there is none."""
-    for motion in (PLANAR, FREE):
+def motion_named(name: str, among: tuple[Motion, ...] = (PLANAR, FREE)) -> Motion:
+    """The motion of a name; raises `ArgumentError` where there is none `among` these."""
+    for motion in among:
         if motion.name == name:
             return motion
-    raise ArgumentError(f'motion must be "planar" or "free", not "{name}".')
+    names = [f'"{motion.name}"' for motion in among]
+    listed = f"{', '.join(names[:-1])} or {names[-1]}"
+    raise ArgumentError(f'motion must be {listed}, not "{name}".')
 
 
 def heading_velocity(space: FloatArray) -> FloatArray:
@@ -109,6 +112,13 @@ def along_body(space: FloatArray, air: FloatArray) -> FloatArray:
     In the attitude of states in space (K, 8).
     """
     return np.asarray(np.einsum("kba,ka->kb", _heading_in_body(space), air))
+
+
+def gravity_along_body(space: FloatArray, gravity: float) -> FloatArray:
+    """Gravitational acceleration (K, 3) m/s2 along the body's axes, of states in space (K, 8)."""
+    phi, theta = space[:, [_PHI, _THETA]].T
+    along = [-np.sin(theta), np.sin(phi) * np.cos(theta), np.cos(phi) * np.cos(theta)]
+    return gravity * np.column_stack(along)
 
 
 def _heading_in_body(space: FloatArray) -> FloatArray:

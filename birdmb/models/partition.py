@@ -21,9 +21,3 @@ def partitioned(
     a[:, free] = np.linalg.solve(mass[:, free][:, :, free], right[:, :, None])[:, :, 0]
     forces = np.where(free, 0.0, np.einsum("kij,kj->ki", mass, a) + left)
     return a, forces
-
-
-def body_forces(force: FloatArray, moment: FloatArray, theta: FloatArray) -> FloatArray:
-    """Generalised forces (K, 3) on X, Z and pitch of forces and moments (K, 3) in body axes."""
-    (fx, _, fz), c, s = force.T, np.cos(theta), np.sin(theta)
-    return np.column_stack([fx * c + fz * s, fz * c - fx * s, moment[:, 1]])

@@ -11,15 +11,16 @@ import numpy.typing as npt
 
 from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.prescribed import (
-    OddWing,
     PrescribedWing,
+    WakeTable,
     driver_motion,
     every_second,
-    no_odd_wing,
-    odd_wing,
+    no_wakes,
+    odd_wakes,
+    pair_wakes,
     prescribed_wing,
 )
-from birdmb.errors import StateError, TopologyError
+from birdmb.errors import StateError
 from birdmb.models.failures import (
     lifting_line_lost,
     overflow_told,
@@ -30,12 +31,13 @@ from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.gusts import Gust
 from birdmb.models.motion import PLANAR, Motion, MotionName, motion_named
+from birdmb.models.refusals import refuse_asymmetric, require_inertia
 from birdmb.models.rigid_kernel import RigidBody, integrate_rigid, rates_along
 from birdmb.models.starts import INCIDENCES, PATH_ANGLES, SPEEDS, steady_states, steady_turns
 from birdmb.models.trim import mean_trim
 from birdmb.models.wing_model import STEPS_PER_BEAT, BirdModel
 from birdmb.topology import Bird
-from birdmb.topology.inertia import impossible_moments
+from birdmb.wing.arrays import WingArrays
 from birdmb.wing.stacked import StackedShapes
 
 _ORDER = 4
@@ -46,28 +48,18 @@ _PHASES = 16  # enough for means over a beat, to guess from
 
 
 class RigidTable(NamedTuple):
-    """The wing at some phases, and what motion in space needs besides."""
+    """Both wings at some phases, the left one mirrored, and what motion in space needs besides."""
 
-    wing: PrescribedWing
-    odd: OddWing
+    right: PrescribedWing
+    left: PrescribedWing
+    wakes: WakeTable
 
 
 def rigid_body(bird: Bird, motion: Motion) -> RigidBody:
-    """The constants of a bird's motion.
-
-    Raises:
-        TopologyError: the bird lacks moments of inertia that the motion needs, or no body has them.
-    """
-    body = bird.body
-    if motion is not PLANAR and (missing := body.missing_moments):
-        raise TopologyError(
-            f"{bird.name}: motion in space needs {' and '.join(f'body.{m}' for m in missing)}, the "
-            "moments of inertia about the body's other axes (kg m2); give them in the topology "
-            "file or with --set."
-        )
-    inertia = body.inertia_tensor
-    if motion is not PLANAR and (why := impossible_moments(inertia)):
-        raise TopologyError(f"{bird.name}: of the body's inertia, {why}.")
+    """The constants of a bird's motion; raises `TopologyError` as `require_inertia`."""
+    if motion is not PLANAR:
+        require_inertia(bird)
+    body, inertia = bird.body, bird.body.inertia_tensor
     return RigidBody(
         body.mass,
         inertia,
@@ -102,6 +94,7 @@ class RigidModel(BirdModel):
     ) -> None:
         super().__init__(bird, steps_per_beat=steps_per_beat, gust=gust)
         self.motion = motion_named(motion)
+        refuse_asymmetric(bird, self.motion)
         self.state_names, self.state_units = self.motion.states, self.motion.units
         self._constants = (self.airframe, rigid_body(bird, self.motion))
         self._tables: dict[tuple[float, float, int] | bytes, RigidTable] = {}
@@ -123,7 +116,9 @@ class RigidModel(BirdModel):
         """
         period = self.bird.period
         fine = self._table(0.0, period, steps)
-        coarse = self._with_odd(every_second(fine.wing))
+        right = every_second(fine.right)
+        left = right if fine.left is fine.right else every_second(fine.left)
+        coarse = self._with_wakes(right, left)
         ends = [
             integrate_rigid(
                 *table, self._first_guess, period / n, np.zeros((2 * n + 1, 3)), *self._constants
@@ -140,7 +135,7 @@ class RigidModel(BirdModel):
     def rhs(self, t: float, x: npt.ArrayLike) -> FloatArray:
         """Rates (n,) of the states at time t (s) in state x (n,)."""
         times, states = np.array([t]), np.asarray(x, dtype=float)[None, :]
-        table = self._with_odd(self.wing_at(times))
+        table = self._tabulated(times)
         phase = np.zeros(1, np.int64)
         return self._along(table, phase, times, states, slopes_wanted=False)[0][0]
 
@@ -232,7 +227,7 @@ class RigidModel(BirdModel):
     def _trim(self, times: FloatArray) -> FloatArray:
         table, _ = self._table_for(times)
         with overflow_told(self.bird, "the flight in which the mean loads balance"):
-            return self._state_of(mean_trim(self.bird, table.wing, self.airframe))
+            return self._state_of(mean_trim(self.bird, table.right, self.airframe))
 
     def _state_of(self, planar: FloatArray) -> FloatArray:
         """State (n,) of a symmetric flight with the states u, w, q, theta (4,)."""
@@ -258,18 +253,6 @@ class RigidModel(BirdModel):
         self._refuse_upright(np.linspace(t0, t1, steps + 1), found[0])
         return found
 
-    def _refuse_upright(self, times: FloatArray, states: FloatArray) -> None:
-        """Raise `StateError` where the angles of motion in space end."""
-        if self.motion is PLANAR:
-            return
-        upright = np.abs(states[:, self.state_names.index("theta")]) >= 0.5 * np.pi
-        if upright.any():
-            t = float(times[np.argmax(upright)])
-            raise StateError(
-                f"{self.bird.name}: at t = {t:.4g} s the body pitches beyond 90 degrees, where "
-                'roll and heading are not told apart (motion="free").'
-            )
-
     def _described(self, x: FloatArray) -> str:
         return ", ".join(f"{n} = {v:.4g}" for n, v in zip(self.state_names, x, strict=True))
 
@@ -290,31 +273,46 @@ class RigidModel(BirdModel):
         if table is None:
             if len(self._tables) >= _TABLES_KEPT:
                 self._tables.clear()
-            table = self._tables[key] = self._with_odd(self.wing_at(times))
+            table = self._tables[key] = self._tabulated(times)
         return table
 
-    def _with_odd(self, wing: PrescribedWing) -> RigidTable:
-        """The table with what asymmetric motions need; symmetric ones do without."""
-        return RigidTable(wing, no_odd_wing() if self.motion is PLANAR else odd_wing(wing))
+    def _tabulated(self, times: FloatArray) -> RigidTable:
+        right = self.wing_at(times)
+        return self._with_wakes(right, right if self.bird.is_symmetric else self._left_at(times))
+
+    def _with_wakes(self, right: PrescribedWing, left: PrescribedWing) -> RigidTable:
+        """The table with what asymmetric motions or wings need; symmetric flight does without."""
+        if self.motion is PLANAR:
+            return RigidTable(right, left, no_wakes())
+        if left is right:
+            return RigidTable(right, left, odd_wakes(right))
+        return RigidTable(right, left, pair_wakes(right, left))
 
     def _shapes_along(
         self, times: FloatArray, _angles: FloatArray, _rates: FloatArray
-    ) -> tuple[StackedShapes, IntArray]:
+    ) -> tuple[tuple[StackedShapes, StackedShapes], IntArray]:
         table, phase = self._table_for(times)
-        return table.wing.shapes, phase
+        return (table.right.shapes, table.left.shapes), np.stack([phase, phase])
 
     def wing_at(self, times: FloatArray) -> PrescribedWing:
-        """The wing on its drivers at `times` (P,) s; raises `StateError` where it has no loads."""
+        """The right wing on its drivers at `times` (P,) s.
+
+        Raises `StateError` where it has no loads.
+        """
+        return self._wing_at(self.wing, times)
+
+    def _left_at(self, times: FloatArray) -> PrescribedWing:
+        return self._wing_at(self.left_wing, times)
+
+    def _wing_at(self, arrays: WingArrays, times: FloatArray) -> PrescribedWing:
         with overflow_told(self.bird, "the wing's circulation"):
-            wing = prescribed_wing(self.wing, self.airframe.tail, times, *self.discretisation)
+            wing = prescribed_wing(arrays, self.airframe.tail, times, *self.discretisation)
         if not wing.shapes.converged.all():
             t = float(times[np.argmin(wing.shapes.converged)])
-            raise lifting_line_lost(self.bird, t, driver_motion(self.wing, t)[0])
+            raise lifting_line_lost(self.bird, t, driver_motion(arrays, t)[0])
         misplaced = ~(wing.clearance >= 0.0)
         if misplaced.any():
             worst = int(np.argmin(np.where(misplaced, wing.clearance, np.inf)))
-            t = float(times[worst])
-            raise wing_misplaced(
-                self.bird, t, driver_motion(self.wing, t)[0], float(wing.clearance[worst])
-            )
+            t, distance = float(times[worst]), float(wing.clearance[worst])
+            raise wing_misplaced(self.bird, t, driver_motion(arrays, t)[0], distance)
         return wing

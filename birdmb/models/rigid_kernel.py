@@ -15,7 +15,12 @@ import numpy as np
 from birdmb._kernels import kernel
 from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.airframe import Airframe
-from birdmb.aerodynamics.prescribed import OddWing, PrescribedWing, free_loads, symmetric_loads
+from birdmb.aerodynamics.prescribed import (
+    PrescribedWing,
+    WakeTable,
+    free_loads,
+    symmetric_loads,
+)
 
 _PHI, _THETA, _SIZE = 6, 7, 8
 
@@ -62,7 +67,8 @@ def _turn(phi: float, theta: float, turn: FloatArray) -> None:
 @kernel
 def rigid_rates(
     wing: PrescribedWing,
-    odd: OddWing,
+    left: PrescribedWing,
+    wakes: WakeTable,
     k: int,
     states: FloatArray,
     air: FloatArray,
@@ -85,7 +91,7 @@ def rigid_rates(
     twist[0], twist[1], twist[2] = twist[0] - wx, twist[1] - wy, twist[2] - wz
     directions = body.directions if slopes_wanted else body.directions[:0]
     if body.directions.size == 6:
-        found = free_loads(wing, odd, k, frame, twist, directions)
+        found = free_loads(wing, left, wakes, k, frame, twist, directions)
     else:
         found = symmetric_loads(wing, k, frame, twist, directions)
     wrench, slopes = found[:, 0].copy(), np.zeros((6, _SIZE))
@@ -173,7 +179,8 @@ def _write_attitude(x: FloatArray, rates: FloatArray, jacobian: FloatArray) -> N
 @kernel
 def rates_along(
     wing: PrescribedWing,
-    odd: OddWing,
+    left: PrescribedWing,
+    wakes: WakeTable,
     phase: IntArray,
     states: FloatArray,
     air: FloatArray,
@@ -190,7 +197,7 @@ def rates_along(
     for i in range(count):
         if np.isfinite(states[i]).all():
             rates[i], jacobians[i] = rigid_rates(
-                wing, odd, phase[i], states[i], air[i], frame, body, slopes_wanted
+                wing, left, wakes, phase[i], states[i], air[i], frame, body, slopes_wanted
             )
     return rates, jacobians
 
@@ -198,7 +205,8 @@ def rates_along(
 @kernel
 def integrate_rigid(
     wing: PrescribedWing,
-    odd: OddWing,
+    left: PrescribedWing,
+    wakes: WakeTable,
     x0: FloatArray,
     step: float,
     air: FloatArray,
@@ -218,17 +226,18 @@ def integrate_rigid(
     sensitivity = np.eye(n)
     for i in range(steps):
         k, g = 2 * i, air[2 * i + 1]
-        k1, j1 = rigid_rates(wing, odd, k, x, air[k], frame, body, True)
+        k1, j1 = rigid_rates(wing, left, wakes, k, x, air[k], frame, body, True)
         s1 = j1 @ sensitivity
-        k2, j2 = rigid_rates(wing, odd, k + 1, x + 0.5 * step * k1, g, frame, body, True)
+        k2, j2 = rigid_rates(wing, left, wakes, k + 1, x + 0.5 * step * k1, g, frame, body, True)
         s2 = j2 @ (sensitivity + 0.5 * step * s1)
-        k3, j3 = rigid_rates(wing, odd, k + 1, x + 0.5 * step * k2, g, frame, body, True)
+        k3, j3 = rigid_rates(wing, left, wakes, k + 1, x + 0.5 * step * k2, g, frame, body, True)
         s3 = j3 @ (sensitivity + 0.5 * step * s2)
-        k4, j4 = rigid_rates(wing, odd, k + 2, x + step * k3, air[k + 2], frame, body, True)
+        k4, j4 = rigid_rates(wing, left, wakes, k + 2, x + step * k3, air[k + 2], frame, body, True)
         s4 = j4 @ (sensitivity + step * s3)
         x = x + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
         sensitivity = sensitivity + step / 6.0 * (s1 + 2.0 * s2 + 2.0 * s3 + s4)
         rates[i] = k1
         states[i + 1] = x
-    rates[steps], _ = rigid_rates(wing, odd, 2 * steps, x, air[2 * steps], frame, body, False)
+    k = 2 * steps
+    rates[steps], _ = rigid_rates(wing, left, wakes, k, x, air[k], frame, body, False)
     return states, rates, sensitivity

@@ -1,8 +1,9 @@
-"""Compiled inertia of the bird's tree in symmetric flight: mass matrices and bias forces.
+"""Compiled inertia of the bird's tree: mass matrices and bias forces.
 
-Both wings move alike, so the right one counts twice and each of its joints stands for the pair. All
-is in body axes, the body's acceleration too: mass matrices depend on the joints' angles alone.
-Coordinates are x, z and pitch of the body, then the joints and hinges of the right wing.
+All is in body axes, the body's acceleration too: mass matrices depend on the joints' angles alone.
+Coordinates are those of the body that move, along and about its axes, then the joints and hinges of
+the right wing and of the left one. Where both wings move as mirror images the right one counts
+twice, and each of its joints stands for the pair.
 """
 
 from __future__ import annotations
@@ -14,36 +15,35 @@ import numpy as np
 from birdmb._kernels import kernel
 from birdmb._typing import BoolArray, FloatArray, IntArray
 
-BODY = 3
-
 
 class TreeLinks(NamedTuple):
-    """Body and links of the right wing, one for each of the A joints and hinges.
+    """Body and the wings' links, one for each of the L joints and hinges.
 
     A link turns about the z axis of its frame.
     """
 
-    parent: IntArray  # (A,) link that carries this one, -1 the body
-    offset: FloatArray  # (A, 3) m, joint in the parent's frame
-    axes: FloatArray  # (A, 3, 3) frame of the joint, not yet turned, to the parent's
-    mass: FloatArray  # (A,) kg
-    centre: FloatArray  # (A, 3) m, centre of mass
-    inertia: FloatArray  # (A, 3, 3) kg m2 about it
+    parent: IntArray  # (L,) link that carries this one, -1 the body
+    offset: FloatArray  # (L, 3) m, joint in the parent's frame
+    axes: FloatArray  # (L, 3, 3) frame of the joint, not yet turned, to the parent's
+    mass: FloatArray  # (L,) kg
+    centre: FloatArray  # (L, 3) m, centre of mass
+    inertia: FloatArray  # (L, 3, 3) kg m2 about it
+    copies: float  # of each link: 2 where both wings are mirror images and one is listed, else 1
     body_mass: float  # kg
-    body_inertia: float  # kg m2, in pitch
-    gravity: float  # m/s2
+    body_inertia: FloatArray  # (3, 3) kg m2
+    directions: IntArray  # (B,) body coordinates among x, y, z and the turns about them
 
 
 class PlacedLinks(NamedTuple):
     """The links at given angles, in body axes."""
 
-    joint: FloatArray  # (A, 3) m, from the body's centre of mass
-    axis: FloatArray  # (A, 3) unit
-    arm: FloatArray  # (A, 3) m, from joint to centre of mass
-    inertia: FloatArray  # (A, 3, 3)
-    velocity: FloatArray  # (A, 3 + A, 3) of each centre of mass per rate of each coordinate
-    spin: FloatArray  # (A, 3 + A, 3) likewise of each link's turning
-    weighs: BoolArray  # (A,) whether the link has inertia
+    joint: FloatArray  # (L, 3) m, from the body's centre of mass
+    axis: FloatArray  # (L, 3) unit
+    arm: FloatArray  # (L, 3) m, from joint to centre of mass
+    inertia: FloatArray  # (L, 3, 3)
+    velocity: FloatArray  # (L, B + L, 3) of each centre of mass per rate of each coordinate
+    spin: FloatArray  # (L, B + L, 3) likewise of each link's turning
+    weighs: BoolArray  # (L,) whether the link has inertia
 
 
 @kernel
@@ -79,12 +79,12 @@ def _dot(a: FloatArray, b: FloatArray) -> float:
 
 @kernel
 def placed_links(links: TreeLinks, angles: FloatArray) -> PlacedLinks:
-    """Place the links at `angles` (A,) rad."""
-    n = angles.size
+    """Place the links at `angles` (L,) rad."""
+    n, body = angles.size, links.directions.size
     frame = np.empty((n, 3, 3))
     joint, axis, arm = np.empty((n, 3)), np.empty((n, 3)), np.empty((n, 3))
     inertia = np.empty((n, 3, 3))
-    velocity, spin = np.zeros((n, BODY + n, 3)), np.zeros((n, BODY + n, 3))
+    velocity, spin = np.zeros((n, body + n, 3)), np.zeros((n, body + n, 3))
     weighs = np.empty(n, np.bool_)
     turn = np.zeros((3, 3))
     turn[2, 2] = 1.0
@@ -103,67 +103,92 @@ def placed_links(links: TreeLinks, angles: FloatArray) -> PlacedLinks:
         inertia[i] = _product(_product(frame[i], links.inertia[i]), frame[i].T)
         weighs[i] = links.mass[i] > 0.0 or np.any(links.inertia[i] != 0.0)
         centre = joint[i] + arm[i]
-        velocity[i, 0, 0] = velocity[i, 1, 2] = 1.0
-        velocity[i, 2, 0], velocity[i, 2, 2] = centre[2], -centre[0]
-        spin[i, 2, 1] = 1.0
+        for b in range(body):
+            along = links.directions[b]
+            if along < 3:
+                velocity[i, b, along] = 1.0
+            else:
+                # A unit vector times the centre's place: two components are not zero.
+                x, y, z = along - 3, (along - 2) % 3, (along - 1) % 3
+                spin[i, b, x] = 1.0
+                velocity[i, b, y], velocity[i, b, z] = -centre[z], centre[y]
         j = i
         while j >= 0:
-            velocity[i, BODY + j] = _cross(axis[j], centre - joint[j])
-            spin[i, BODY + j] = axis[j]
+            velocity[i, body + j] = _cross(axis[j], centre - joint[j])
+            spin[i, body + j] = axis[j]
             j = links.parent[j]
     return PlacedLinks(joint, axis, arm, inertia, velocity, spin, weighs)
 
 
 @kernel
 def mass_matrix(links: TreeLinks, placed: PlacedLinks) -> FloatArray:
-    """Mass matrix (3 + A, 3 + A) of body and both wings."""
-    n = placed.joint.shape[0]
-    matrix = np.zeros((BODY + n, BODY + n))
-    matrix[0, 0] = matrix[1, 1] = links.body_mass
-    matrix[2, 2] = links.body_inertia
-    moves = np.empty(BODY + n, np.bool_)
+    """Mass matrix (B + L, B + L) of body and wings."""
+    n, body = placed.joint.shape[0], links.directions.size
+    matrix = np.zeros((body + n, body + n))
+    _add_body(links, matrix)
+    moves = np.empty(body + n, np.bool_)
     for i in range(n):
         if not placed.weighs[i]:
             continue
-        moves[:BODY], moves[BODY:] = True, False
+        moves[:body], moves[body:] = True, False
         j = i
         while j >= 0:
-            moves[BODY + j] = True
+            moves[body + j] = True
             j = links.parent[j]
-        for a in range(BODY + n):
+        for a in range(body + n):
             if not moves[a]:
                 continue
-            momentum = 2.0 * links.mass[i] * placed.velocity[i, a]
-            turning = 2.0 * _times(placed.inertia[i], placed.spin[i, a])
+            momentum = links.copies * links.mass[i] * placed.velocity[i, a]
+            turning = links.copies * _times(placed.inertia[i], placed.spin[i, a])
             for b in range(a + 1):
                 if moves[b]:
                     part = _dot(momentum, placed.velocity[i, b]) + _dot(turning, placed.spin[i, b])
                     matrix[a, b] += part
-    for a in range(BODY + n):
+    for a in range(body + n):
         for b in range(a):
             matrix[b, a] = matrix[a, b]
     return matrix
 
 
 @kernel
-def bias_forces(
-    links: TreeLinks, placed: PlacedLinks, rates: FloatArray, pitch_rate: float, theta: float
-) -> FloatArray:
-    """Forces (3 + A,) that inertia and gravity leave where no coordinate accelerates.
+def _add_body(links: TreeLinks, matrix: FloatArray) -> None:
+    for a in range(links.directions.size):
+        for b in range(a + 1):
+            i, j = links.directions[a], links.directions[b]
+            if i >= 3 and j >= 3:
+                matrix[a, b] = links.body_inertia[i - 3, j - 3]
+            elif i == j:
+                matrix[a, b] = links.body_mass
 
-    On the side of the mass matrix. `rates` (A,) rad/s are those of the joints; the body's velocity
-    does not matter, for its acceleration is that of space in its axes, not the change of u and w.
+
+@kernel
+def bias_forces(
+    links: TreeLinks,
+    placed: PlacedLinks,
+    rates: FloatArray,
+    spin_of_body: FloatArray,
+    gravity: FloatArray,
+) -> FloatArray:
+    """Forces (B + L,) that inertia and gravity leave where no coordinate accelerates.
+
+    On the side of the mass matrix. `rates` (L,) rad/s are those of the joints, `spin_of_body` (3,)
+    rad/s the body's angular velocity, `gravity` (3,) m/s2 along its axes. The body's velocity does
+    not matter, for its acceleration is that of space in its axes, not the change of u, v and w.
     """
-    n = rates.size
+    n, body = rates.size, links.directions.size
     turning, change = np.zeros((n + 1, 3)), np.zeros((n + 1, 3))
     acceleration = np.zeros((n + 1, 3))
     # The last row is the body, which parent -1 finds. Gravity is an acceleration upwards.
-    turning[n, 1] = pitch_rate
-    acceleration[n, 0] = links.gravity * np.sin(theta)
-    acceleration[n, 2] = -links.gravity * np.cos(theta)
-    forces = np.zeros(BODY + n)
-    forces[0] = links.body_mass * acceleration[n, 0]
-    forces[1] = links.body_mass * acceleration[n, 2]
+    turning[n] = spin_of_body
+    acceleration[n] = -gravity
+    forces = np.zeros(body + n)
+    gyroscopic = _cross(spin_of_body, _times(links.body_inertia, spin_of_body))
+    for a in range(body):
+        along = links.directions[a]
+        if along < 3:
+            forces[a] = -links.body_mass * gravity[along]
+        else:
+            forces[a] = gyroscopic[along - 3]
     for i in range(n):
         parent = links.parent[i]
         spin, spin_change = turning[parent], change[parent]
@@ -182,15 +207,15 @@ def bias_forces(
             + _cross(change[i], placed.arm[i])
             + _cross(spin, _cross(spin, placed.arm[i]))
         )
-        force = 2.0 * links.mass[i] * of_centre
-        moment = 2.0 * (
+        force = links.copies * links.mass[i] * of_centre
+        moment = links.copies * (
             _times(placed.inertia[i], change[i]) + _cross(spin, _times(placed.inertia[i], spin))
         )
-        for a in range(BODY):
+        for a in range(body):
             forces[a] += _dot(placed.velocity[i, a], force) + _dot(placed.spin[i, a], moment)
         j = i
         while j >= 0:
-            a = BODY + j
+            a = body + j
             forces[a] += _dot(placed.velocity[i, a], force) + _dot(placed.spin[i, a], moment)
             j = links.parent[j]
     return forces

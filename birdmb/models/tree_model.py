@@ -9,88 +9,164 @@ import numpy as np
 import numpy.typing as npt
 
 from birdmb._typing import BoolArray, FloatArray, IntArray
-from birdmb.aerodynamics.prescribed import driver_motion, driver_motion_along
-from birdmb.errors import StateError
+from birdmb.errors import ArgumentError, StateError
 from birdmb.models.compiled_calls import COMPILED, calls_compiled_code
 from birdmb.models.determinacy import refuse_undetermined
-from birdmb.models.exudyn_tree import BODY_COORDINATES, ExudynBird, typical_inertias
-from birdmb.models.failures import overflow_told, refuse_runaway, wing_misplaced
+from birdmb.models.exudyn_tree import ExudynBird, typical_inertias
+from birdmb.models.failures import overflow_told, refuse_runaway
 from birdmb.models.flight import Flight
 from birdmb.models.gusts import Gust
 from birdmb.models.implicit import integrate_implicitly
-from birdmb.models.instants import DriverState, Instants
+from birdmb.models.instants import Instants
 from birdmb.models.integration import Integration, Integrator, integration_for
 from birdmb.models.loads import LoadsAlong
-from birdmb.models.multibody_kernel import body_velocity, tree_forces
-from birdmb.models.partition import body_forces, partitioned
+from birdmb.models.motion import (
+    FREE,
+    HELD,
+    PLANAR,
+    SPACE_STATES,
+    MotionName,
+    gravity_along_body,
+    motion_named,
+)
+from birdmb.models.partition import partitioned
 from birdmb.models.rates_kernel import Motion
+from birdmb.models.refusals import refuse_asymmetric, require_inertia
 from birdmb.models.rigid import RigidModel
-from birdmb.models.springs import has_two_sides, spring_torques_along, springs_of
-from birdmb.models.stepped_cycle import SteppedCycle
+from birdmb.models.springs import Springs, has_two_sides, spring_torques_along, springs_of
+from birdmb.models.tree_coordinates import (
+    COORDINATES,
+    IN_PLANE,
+    IN_SPACE,
+    body_forces,
+    coordinates_along,
+    space_state,
+    state_rates,
+    whole,
+)
 from birdmb.models.tree_rates import TreeRates
-from birdmb.models.wing_model import BODY_SCALE, BODY_STATES, BODY_UNITS, BirdModel
+from birdmb.models.wing_model import BirdModel
 from birdmb.topology import Bird
+from birdmb.wing.arrays import WingArrays
 from birdmb.wing.chain import joints_turning_the_whole
-from birdmb.wing.shape import WingShape
 from birdmb.wing.stacked import StackedShapes
 
 _JOINT_SCALE = (0.5, 10.0)  # rad, rad/s
+SIDES: tuple[Literal["right"], Literal["left"]] = ("right", "left")
 
 
 class TreeModel(BirdModel):
-    """A bird as one kinematic tree of body and wings, in flight or held.
-
-    The states are the body's, if it is free, then angle (rad) and rate (rad/s) of each compliant
-    joint, named `shoulder.flap` and `shoulder.flap.rate`, and of each feather's hinge, named
-    `feathers.5.hinge` and `feathers.5.hinge.rate`; a hinge is moved like a joint whose driver
-    stands still. Left and right wing move as mirror images.
-
-    Integrated with fixed steps, for shooting needs a flow that is smooth in its start: by Exudyn's
-    explicit RK67 (order 6) with as many steps as the fastest motion of the joints needs, or, where
-    that would be too many, by implicit Radau IIA (order 5). `integration` tells which.
-    """
-
-    limit_cycle_type: type[SteppedCycle]
-    # How many of the states are the body's: all four, unless it is held.
-    _body_states: int
+    """A bird as one kinematic tree of body and wings; see `birdmb.MultibodyModel`."""
 
     def __init__(
         self,
         bird: Bird,
         *,
+        motion: MotionName = "planar",
+        body_state: npt.ArrayLike | None = None,
         steps_per_beat: int | None = None,
         integrator: Integrator = "auto",
         gust: Gust | None = None,
     ) -> None:
         super().__init__(bird, steps_per_beat=steps_per_beat, gust=gust)
+        self.motion = motion_named(motion, (PLANAR, FREE, HELD))
+        refuse_asymmetric(bird, self.motion)
+        self._held = self._state_held(body_state)
+        self._coordinates_of_body = IN_PLANE if self.is_mirrored else IN_SPACE
+        if self.motion is FREE:
+            require_inertia(bird)
         self._integrator: Integrator = integrator
-        hinges = [feather.hinge_name for feather in bird.hinged_feathers]
-        names = [joint.name for joint in bird.compliant_joints] + hinges
-        free = self._body_states
-        self.state_names = BODY_STATES[:free] + tuple(n for j in names for n in (j, f"{j}.rate"))
-        self.state_units = BODY_UNITS[:free] + ("rad", "rad/s") * len(names)
         compliant = [joint.mode == "compliant" for joint in bird.joints]
+        hinges = [feather.hinge_name for feather in bird.hinged_feathers]
         self._compliant = np.array(compliant + [True] * len(hinges), dtype=bool)
-        self._right_wing = slice(BODY_COORDINATES, BODY_COORDINATES + self._compliant.size)
-        self._springs = springs_of(bird)
+        self._sides = 1 if self.is_mirrored else 2
+        self._name_states()
+        springs = [springs_of(bird.side(side)) for side in SIDES]
+        self._springs = Springs(*(np.concatenate(pair) for pair in zip(*springs, strict=True)))
         self.rigid_joint_count = joints_turning_the_whole(self.wing)
-        shaping = np.flatnonzero(self._compliant[self.rigid_joint_count :]) + self.rigid_joint_count
         self.prescribed = self._follow_drivers()
-        self._instants = Instants(
-            bird, self.wing, self.discretisation, self.rigid_joint_count, shaping.tolist()
-        )
+        right = self._instants_of(self.wing)
+        instants = right, right if bird.is_symmetric else self._instants_of(self.left_wing)
         self._tree = TreeRates(
-            bird, self.wing, self.rigid_joint_count, self.airframe, self.prescribed, self._instants
+            bird,
+            self.wing,
+            instants,
+            body_coordinates=self._coordinates_of_body,
+            is_mirrored=self.is_mirrored,
+            rigid_joint_count=self.rigid_joint_count,
+            frame=self.airframe,
+            springs=self._springs,
+            prescribed=self.prescribed,
         )
         self._refuse_undetermined()
-        self._exudyn = ExudynBird(bird, self._forces, self.prescribed, self.driver_accelerations)
+        self._exudyn = ExudynBird(
+            bird,
+            self._coordinates_of_body,
+            self._forces,
+            self.prescribed,
+            self._tree.driver_accelerations,
+        )
         self._integration: Integration | None = None
 
+    def _state_held(self, body_state: npt.ArrayLike | None) -> FloatArray | None:
+        """State in space (8,) of a held body; `None` where it moves."""
+        if self.motion is not HELD:
+            if body_state is not None:
+                raise ArgumentError(
+                    'body_state is that of a body that is held (motion="held"); a bird that flies '
+                    "has it among its states."
+                )
+            return None
+        given = np.array([] if body_state is None else body_state, dtype=float)
+        if given.shape == (len(PLANAR.states),):
+            given = PLANAR.in_space(given[None])[0]
+        if given.shape != (len(SPACE_STATES),) or given[3:6].any():
+            raise ArgumentError(
+                'motion="held" needs body_state: u, w, q and theta of the body, or '
+                f"{', '.join(SPACE_STATES)}, with no angular velocity: a held body cannot turn."
+            )
+        given.flags.writeable = False
+        return given
+
+    @property
+    def is_mirrored(self) -> bool:
+        """Whether the left wing is the mirror image of the right one in every state."""
+        held_aside = self._held is not None and bool(self._held[FREE.lateral].any())
+        return super().is_mirrored and not held_aside
+
+    def _name_states(self) -> None:
+        """Name the states: the body's, then angle and rate of what moves, of each side."""
+        angles = np.array(self.bird.angle_names)[self._compliant].tolist()
+        if self._sides == 2:
+            angles = [f"{name}.{side}" for side in SIDES for name in angles]
+        self.state_names = self.motion.states + tuple(
+            name for angle in angles for name in (angle, f"{angle}.rate")
+        )
+        self.state_units = self.motion.units + ("rad", "rad/s") * len(angles)
+
+    def _instants_of(self, wing: WingArrays) -> Instants:
+        shaping = np.flatnonzero(self._compliant[self.rigid_joint_count :]) + self.rigid_joint_count
+        return Instants(
+            self.bird, wing, self.discretisation, self.rigid_joint_count, shaping.tolist()
+        )
+
     def _options(self) -> dict[str, Any]:
-        return {**super()._options(), "integrator": self._integrator}
+        own = {"motion": self.motion.name, "integrator": self._integrator}
+        return {**super()._options(), **own, "body_state": self._held}
 
     def _altered(self, **options: Any) -> Self:
         return super()._altered(**{"integrator": self.integration.method, **options})
+
+    @property
+    def _first_joint(self) -> int:
+        """Where the states of joints and hinges begin."""
+        return len(self.motion.states)
+
+    def body_in_space(self, states: FloatArray) -> FloatArray:
+        """The body's states in space (K, 8), as `SPACE_STATES`, of states (K, n)."""
+        if self._held is not None:
+            return np.tile(self._held, (len(states), 1))
+        return super().body_in_space(states)
 
     @property
     def integration(self) -> Integration:
@@ -130,16 +206,17 @@ class TreeModel(BirdModel):
     @property
     def state_scale(self) -> FloatArray:
         """Typical sizes of the states, (n,)."""
-        joints = int(self._compliant.sum())
-        return np.array(BODY_SCALE[: self._body_states] + _JOINT_SCALE * joints)
+        angles = self._sides * int(self._compliant.sum())
+        return np.array(self.motion.scale + _JOINT_SCALE * angles)
 
-    def joint_motion_along(
+    def motion_of_both(
         self, times: FloatArray, states: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Angles and rates (K, A) of joints and hinges at `times` (K,) s in states (K, n)."""
-        angles, rates, _ = driver_motion_along(self.wing, times)
-        angles[:, self._compliant] = states[:, self._body_states :: 2]
-        rates[:, self._compliant] = states[:, self._body_states + 1 :: 2]
+        """Angles and rates, each (K, 2, A), of joints and hinges of the right and the left wing."""
+        angles, rates, _ = self.drivers_of_both(times)
+        own = states[:, self._first_joint :].reshape(len(states), self._sides, -1, 2)
+        angles[:, :, self._compliant] = own[..., 0]
+        rates[:, :, self._compliant] = own[..., 1]
         return angles, rates
 
     def flow(self, x0: npt.ArrayLike, t0: float, t1: float) -> FloatArray:
@@ -184,33 +261,32 @@ class TreeModel(BirdModel):
             if finite.any():
                 found[finite] = self.rates(times[finite], states[finite])
             return found
-        body = np.empty((len(states), len(BODY_STATES)))
-        body[:] = states[:, :4] if self._body_states else self.body_state(states[0])
-        angles, rates = self.joint_motion_along(times, states)
-        motion = Motion(body, angles, rates, self.air_velocities(times)[:, [0, 2]])
+        self._refuse_upright(times, states)
+        space = self.body_in_space(states)
+        angles, rates = (
+            each[:, : self._sides].reshape(len(states), -1)
+            for each in self.motion_of_both(times, states)
+        )
+        twist = self._twist_through_air(times, space)
+        motion = Motion(twist, gravity_along_body(space, self.bird.gravity), angles, rates)
         a = self._tree.accelerations(times, motion)
         found = np.empty(states.shape)
-        if self._body_states:
-            u, w, pitch_rate, _ = body.T
-            found[:, 0] = a[:, 0] - pitch_rate * w
-            found[:, 1] = a[:, 1] + pitch_rate * u
-            found[:, 2], found[:, 3] = a[:, 2], pitch_rate
-        found[:, self._body_states :: 2] = states[:, self._body_states + 1 :: 2]
-        found[:, self._body_states + 1 :: 2] = a[:, BODY_COORDINATES if self._body_states else 0 :]
+        first = self._first_joint
+        if first:
+            of_body = np.zeros((len(states), 6))
+            of_body[:, self.motion.directions] = a[:, : self.motion.directions.size]
+            found[:, :first] = state_rates(space, of_body)[:, self.motion.indices]
+        found[:, first::2] = states[:, first + 1 :: 2]
+        found[:, first + 1 :: 2] = a[:, self.motion.directions.size :]
         return found
-
-    def _own(self, body: npt.ArrayLike, angles: FloatArray, rates: FloatArray) -> FloatArray:
-        """A state, or its rates, from the body's part (4,) and the compliant joints' parts."""
-        return np.concatenate(
-            [np.asarray(body)[: self._body_states], np.column_stack([angles, rates]).ravel()]
-        )
 
     def accelerations(self, t: float, x: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Accelerations (n,) of all coordinates and the actuators' forces (n,) on them.
 
-        Coordinates X, Z (m), pitch (rad), right and left joints and hinges (rad). The forces (N,
-        N m) are those that hold the prescribed joints to their drivers, without springs and
-        dampers.
+        Coordinates of the body as `tree_coordinates.COORDINATES`, in the plane of symmetry X, Z (m)
+        and pitch (rad) alone, then joints and hinges of the right and of the left wing (rad). The
+        forces (N, N m) are those that hold the prescribed joints to their drivers, without springs
+        and dampers, and a held body in its motion.
         """
         times, states = np.array([t]), np.asarray(x, dtype=float)[None, :]
         a, forces = self._accelerations(times, states, self.loads_along(times, states))
@@ -223,39 +299,54 @@ class TreeModel(BirdModel):
         """As `accelerations`, each (K, c)."""
         q, v = self._coordinates(times, states)
         mass, bias = self._tree.inertia.at(q, v)
-        torques = loads.stack.joint_torques + self._spring_torques_along(times, states)
-        body = body_forces(loads.stack.force, loads.stack.moment, q[:, 2])
-        _, _, driving = driver_motion_along(self.wing, times)
-        given = np.hstack([np.zeros((times.size, BODY_COORDINATES)), driving, driving])
+        torques = loads.joint_torques + self._spring_torques_along(times, states)
+        place, _ = coordinates_along(self.body_in_space(states))
+        on_body = body_forces(place, np.hstack([loads.stack.force, loads.stack.moment]))
+        _, _, driving = self.drivers_of_both(times)
+        count = times.size
+        given = np.zeros(q.shape)
+        given[:, self._joints] = driving.reshape(count, -1)
+        applied = np.hstack([on_body[:, self._coordinates_of_body], torques.reshape(count, -1)])
         with overflow_told(self.bird, f"the acceleration at t = {times[0]:.4g} s"):
-            left = bias - np.hstack([body, torques, torques])
-            return partitioned(mass, left, given, self.prescribed)
+            return partitioned(mass, bias - applied, given, self.prescribed)
 
     def _spring_torques_along(self, times: FloatArray, states: FloatArray) -> FloatArray:
-        angles, rates = self.joint_motion_along(times, states)
-        driver_angles, driver_rates, _ = driver_motion_along(self.wing, times)
-        return spring_torques_along(self._springs, angles - driver_angles, rates - driver_rates)
+        """Torques (K, 2, A) N m of springs and dampers."""
+        angles, rates = self.motion_of_both(times, states)
+        driver_angles, driver_rates, _ = self.drivers_of_both(times)
+        flat = times.size, -1
+        torques = spring_torques_along(
+            self._springs,
+            (angles - driver_angles).reshape(flat),
+            (rates - driver_rates).reshape(flat),
+        )
+        return np.asarray(torques.reshape(angles.shape))
 
     def actuator_torques_along(
         self, times: FloatArray, states: FloatArray, loads: LoadsAlong
     ) -> FloatArray:
-        """Torques (K, A) N m that move joints and hinges, left and right together.
+        """Torques (K, 2, A) N m that move joints and hinges of the right and of the left wing.
 
         Of the actuators that hold prescribed joints to their drivers, inertia included; of spring
         and damper where a joint is compliant.
         """
         _, forces = self._accelerations(times, states, loads)
-        right = forces[:, self._right_wing]
-        return 2.0 * (right + self._spring_torques_along(times, states))
+        springs = self._spring_torques_along(times, states)
+        return np.asarray(forces[:, self._joints].reshape(springs.shape) + springs)
+
+    def holding_power(self, times: FloatArray, states: FloatArray, loads: LoadsAlong) -> FloatArray:
+        """Power (K,) W of what holds the body in its motion; 0 where it flies."""
+        if self._held is None:
+            return super().holding_power(times, states, loads)
+        _, forces = self._accelerations(times, states, loads)
+        body = self._coordinates_of_body.size
+        _, v = self._coordinates(times, states)
+        return np.asarray((forces[:, :body] * v[:, :body]).sum(axis=1))
 
     def _shapes_along(
         self, times: FloatArray, angles: FloatArray, rates: FloatArray
-    ) -> tuple[StackedShapes, IntArray]:
-        distinct, shape_of = np.unique(times, return_inverse=True)
-        shapes = self._instants.stacked(distinct).shapes
-        if shapes is None:
-            return self._instants.shapes(times, angles, rates), np.arange(times.size)
-        return shapes, shape_of
+    ) -> tuple[tuple[StackedShapes, StackedShapes], IntArray]:
+        return self._tree.shapes(times, angles, rates)
 
     def driven_state(self, t: float = 0.0) -> FloatArray:
         """State (n,) at t (s) of the body in mean trim, with compliant joints on their drivers."""
@@ -263,21 +354,27 @@ class TreeModel(BirdModel):
 
     def guess_along(self, times: FloatArray) -> FloatArray:
         """A guess (K, n) of a limit cycle at `times` (K,) s: `driven_state` at each."""
-        angles, rates, _ = driver_motion_along(self.wing, times)
         guess = np.empty((times.size, len(self.state_names)))
-        if self._body_states:
-            guess[:, : self._body_states] = self._trim
-        guess[:, self._body_states :: 2] = angles[:, self._compliant]
-        guess[:, self._body_states + 1 :: 2] = rates[:, self._compliant]
+        if self.motion is not HELD:
+            guess[:, : self._first_joint] = self._trim
+        angles, rates, _ = self.drivers_of_both(times)
+        moving = np.stack([angles, rates], axis=-1)[:, : self._sides, self._compliant]
+        guess[:, self._first_joint :] = moving.reshape(times.size, -1)
         return guess
 
     @cached_property
     def _trim(self) -> FloatArray:
-        return RigidModel(self.bird).initial_guess()
+        planar = RigidModel(self.bird.side("right")).initial_guess()
+        return PLANAR.in_space(planar[None])[0, self.motion.indices]
+
+    @property
+    def _joints(self) -> slice:
+        """The tree's coordinates of joints and hinges, those of the right wing first."""
+        return slice(self._coordinates_of_body.size, None)
 
     def _follow_drivers(self) -> BoolArray:
         """Which of the tree's coordinates (n,) follow a driver."""
-        body = np.full(BODY_COORDINATES, self._body_states == 0)
+        body = np.full(self._coordinates_of_body.size, self.motion is HELD)
         joints = ~self._compliant
         return np.concatenate([body, joints, joints])
 
@@ -285,32 +382,33 @@ class TreeModel(BirdModel):
         """Raise `TopologyError` if the mass matrix at t = 0 leaves a compliant joint at will."""
         if not self._compliant.any():
             return
-        angles, _, _ = driver_motion(self.wing, 0.0)
-        q = np.concatenate([np.zeros(BODY_COORDINATES), angles, angles])[None, :]
+        angles, _, _ = self.drivers_of_both(np.zeros(1))
+        body = self._coordinates_of_body
+        q = np.concatenate([np.zeros(body.size), angles.ravel()])[None, :]
         (mass,), _ = self._tree.inertia.at(q, np.zeros_like(q))
         free = ~self.prescribed
-        names = ("X", "Z", "pitch", *self.bird.angle_names, *self.bird.angle_names)
+        names = (*(COORDINATES[b] for b in body), *self.bird.angle_names, *self.bird.angle_names)
         with overflow_told(self.bird, "the mass matrix"):
             refuse_undetermined(
                 self.bird,
                 mass[np.ix_(free, free)],
-                typical_inertias(self.bird, free.size)[free],
+                typical_inertias(self.bird, body, free.size)[free],
                 [name for name, is_free in zip(names, free, strict=True) if is_free],
             )
 
     def coordinates(self, t: float, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Coordinates and velocities (c,) of the tree, with X = Z = 0, of state x at time t."""
+        """Coordinates and velocities (c,) of the tree at the origin, of state x (n,) at t (s)."""
         (q,), (v,) = self._coordinates(np.array([t]), x[None, :])
         return q, v
 
     def _coordinates(self, times: FloatArray, states: FloatArray) -> tuple[FloatArray, FloatArray]:
         """As `coordinates`, each (K, c)."""
-        u, w, pitch_rate, theta = np.array([self.body_state(x) for x in states]).T
-        c, s = np.cos(theta), np.sin(theta)
-        angles, rates = self.joint_motion_along(times, states)
-        place = np.column_stack([np.zeros((times.size, 2)), theta])
-        motion = np.column_stack([u * c + w * s, -u * s + w * c, pitch_rate])
-        return np.hstack([place, angles, angles]), np.hstack([motion, rates, rates])
+        of_body = coordinates_along(self.body_in_space(states))
+        q, v = (
+            np.hstack([body[:, self._coordinates_of_body], joints.reshape(times.size, -1)])
+            for body, joints in zip(of_body, self.motion_of_both(times, states), strict=True)
+        )
+        return q, v
 
     def _state(self, q: FloatArray, v: FloatArray, when: str) -> FloatArray:
         if not (np.isfinite(q).all() and np.isfinite(v).all()):
@@ -318,41 +416,12 @@ class TreeModel(BirdModel):
                 f"{self.bird.name}: the flight diverged {when} "
                 f"(integrated with {self.steps_per_beat} steps per beat)."
             )
-        joints = np.flatnonzero(self._compliant) + BODY_COORDINATES
-        u, w = body_velocity(q[2], v[0], v[1])
-        return self._own([u, w, v[2], q[2]], q[joints], v[joints])
-
-    def instant(self, t: float) -> DriverState:
-        """What time t (s) alone determines."""
-        return self._instants.at(t)
+        body = self._coordinates_of_body
+        space = space_state(whole(q[: body.size], body), whole(v[: body.size], body))
+        moving = np.stack([q[self._joints], v[self._joints]], axis=-1).reshape(2, -1, 2)
+        joints = moving[: self._sides, self._compliant]
+        return np.concatenate([space[self.motion.indices], joints.ravel()])
 
     def _forces(self, t: float, q: FloatArray, v: FloatArray) -> FloatArray:
         """Generalised forces (n,) of air, springs and dampers: Exudyn's user function."""
-        instant = self.instant(t)
-        forward, _, down = self.air_velocities(np.array([t]))[0]
-        with overflow_told(self.bird, f"the force of the air at t = {t:.4g} s"):
-            forces, clearance = tree_forces(
-                self.wing,
-                instant.shape or self._shape(t, q, v),
-                self.rigid_joint_count,
-                self.airframe,
-                self._springs,
-                instant.angles,
-                instant.rates,
-                q,
-                v,
-                (float(forward), float(down)),
-            )
-        if not clearance >= 0.0:
-            raise wing_misplaced(self.bird, t, q[self._right_wing], clearance)
-        return np.asarray(forces)
-
-    def _shape(self, t: float, q: FloatArray, v: FloatArray) -> WingShape:
-        angles, rates = q[self._right_wing], v[self._right_wing]
-        if not (np.isfinite(angles).all() and np.isfinite(rates).all()):
-            angles, rates, _ = driver_motion(self.wing, t)  # any will do: there are no forces
-        return self._instants.shape(t, angles, rates)
-
-    def driver_accelerations(self, t: float) -> FloatArray:
-        """Accelerations (n,) of the drivers, 0 for the body; only prescribed joints follow."""
-        return self.instant(t).accelerations
+        return self._tree.forces(t, q, v, self.air_velocities(np.array([t]))[0])

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from birdmb._typing import BoolArray, FloatArray
+from birdmb._typing import BoolArray, FloatArray, IntArray
 from birdmb.aerodynamics.airframe import Airframe
-from birdmb.models.exudyn_tree import BODY_COORDINATES, TreeInertia, tree_links
+from birdmb.models.exudyn_tree import TreeInertia, tree_links
 from birdmb.models.failures import overflow_told, wing_misplaced
-from birdmb.models.instants import Instants
-from birdmb.models.rates_kernel import Constants, Drivers, Motion, free_accelerations
+from birdmb.models.instants import Instants, StackedInstants
+from birdmb.models.rates_kernel import Constants, Drivers, Motion, Shapes, free_accelerations
 from birdmb.models.row_groups import groups_of
-from birdmb.models.springs import springs_of
+from birdmb.models.springs import Springs
+from birdmb.models.tree_forces import tree_forces
 from birdmb.topology import Bird
 from birdmb.wing.arrays import WingArrays
+from birdmb.wing.stacked import StackedShapes
 
 
 class TreeRates:
@@ -21,52 +23,138 @@ class TreeRates:
 
     Args:
         bird: the bird.
-        wing: its wing.
-        rigid_joint_count: how many joints at the shoulder turn the wing as a whole.
+        wing: its right wing, of which only what both sides share is read.
+        instants: what time alone determines of the right and of the left wing.
+        body_coordinates: those of the body, as for `bird_links`.
+        is_mirrored: whether both wings always move as mirror images.
+        rigid_joint_count: how many joints at the shoulder turn a wing as a whole.
         frame: constants of the air, tail and body.
+        springs: of the joints and hinges of the right wing, then of the left one.
         prescribed: which coordinates (c,) of the tree follow a given motion.
-        instants: what time alone determines of the wing.
     """
 
     def __init__(
         self,
         bird: Bird,
         wing: WingArrays,
+        instants: tuple[Instants, Instants],
+        *,
+        body_coordinates: IntArray,
+        is_mirrored: bool,
         rigid_joint_count: int,
         frame: Airframe,
+        springs: Springs,
         prescribed: BoolArray,
-        instants: Instants,
     ) -> None:
-        self._bird, self._rigid_joint_count, self._instants = bird, rigid_joint_count, instants
-        right = prescribed[: (prescribed.size + BODY_COORDINATES) // 2]
+        self._bird, self._instants, self._coordinates = bird, instants, body_coordinates
+        self._is_mirrored, self._rigid_joint_count = is_mirrored, rigid_joint_count
+        both, body = springs.damping.size, body_coordinates.size
+        count = both // 2 if is_mirrored else both
+        self._joints = both // 2
         self._constants = Constants(
-            wing, tree_links(bird), frame, springs_of(bird), right, rigid_joint_count
+            wing,
+            tree_links(bird, body_coordinates, is_mirrored=is_mirrored),
+            frame,
+            Springs(*(each[:count] for each in springs)),
+            prescribed[: body + count],
+            rigid_joint_count,
+            is_mirrored,
         )
-        self.inertia = TreeInertia(bird)
+        self.inertia = TreeInertia(bird, body_coordinates)
 
     def accelerations(self, times: FloatArray, motion: Motion) -> FloatArray:
-        """Accelerations (K, F) of the free coordinates of body and right wing.
+        """Accelerations (K, F) of the free coordinates of body and wings.
 
         At `times` (K,) s. The body's are in space, in body axes.
 
         Raises:
-            StateError: no lifting line fits the wing, the wings meet, or the motion is beyond
+            StateError: no lifting line fits a wing, the wings meet, or the motion is beyond
                 floating point.
         """
         distinct, time_of = np.unique(times, return_inverse=True)
-        instants = self._instants.stacked(distinct)
-        shapes, shape_of = instants.shapes, time_of
-        if shapes is None:
-            alike = groups_of(time_of, motion.angles[:, self._rigid_joint_count :])
-            first, shape_of = alike.first, alike.of
-            shapes = self._instants.shapes(times[first], motion.angles[first], motion.rates[first])
-        drivers = Drivers(instants.angles, instants.rates, instants.accelerations)
+        drivers, instants = self._drivers(distinct)
         with overflow_told(self._bird, f"the acceleration at t = {times[0]:.4g} s"):
-            found, clearance = free_accelerations(
-                self._constants, shapes, shape_of, time_of, drivers, motion
+            shapes = self._shapes(instants, times, time_of, motion.angles, motion.rates)
+            found, clearance = free_accelerations(self._constants, shapes, time_of, drivers, motion)
+        self._refuse_misplaced(times, motion.angles, clearance)
+        return found
+
+    def forces(self, t: float, q: FloatArray, v: FloatArray, air: FloatArray) -> FloatArray:
+        """Generalised forces (n,) of air, springs and dampers at t (s); see `tree_forces`."""
+        times, body = np.array([t]), self._coordinates.size
+        drivers, instants = self._drivers(times)
+        count = drivers.angles.shape[1]
+        angles, rates = q[None, body : body + count], v[None, body : body + count]
+        if not (np.isfinite(angles).all() and np.isfinite(rates).all()):
+            angles, rates = drivers.angles, drivers.rates  # any will do: there are no forces
+        with overflow_told(self._bird, f"the force of the air at t = {t:.4g} s"):
+            shapes = self._shapes(instants, times, np.zeros(1, np.int64), angles, rates)
+            forces, clearance = tree_forces(
+                self._constants, shapes, drivers, self._coordinates, q, v, air
             )
+        self._refuse_misplaced(times, angles, clearance[None])
+        return forces
+
+    def driver_accelerations(self, t: float) -> FloatArray:
+        """Accelerations (n,) of the drivers, 0 for the body; only prescribed joints follow."""
+        right, left = (each.stacked(np.array([t])).accelerations[0] for each in self._instants)
+        return np.concatenate([np.zeros(self._coordinates.size), right, left])
+
+    def shapes(
+        self, times: FloatArray, angles: FloatArray, rates: FloatArray
+    ) -> tuple[tuple[StackedShapes, StackedShapes], IntArray]:
+        """Shapes of both wings at `times` (K,), `angles` and `rates` (K, 2, A).
+
+        Those with the joints at zero that turn them, and which (2, K) of them each instant has.
+        """
+        distinct, time_of = np.unique(times, return_inverse=True)
+        _, instants = self._drivers(distinct)
+        flat = len(times), -1
+        found = self._shapes(instants, times, time_of, angles.reshape(flat), rates.reshape(flat))
+        return (found.right, found.left), np.stack([found.right_of, found.left_of])
+
+    def _drivers(self, distinct: FloatArray) -> tuple[Drivers, list[StackedInstants]]:
+        sides = self._instants[:1] if self._is_mirrored else self._instants
+        instants = [each.stacked(distinct) for each in sides]
+        if self._is_mirrored:
+            (right,) = instants
+            return Drivers(right.angles, right.rates, right.accelerations), instants
+        angles, rates, accelerations, _ = zip(*instants, strict=True)
+        return Drivers(*map(np.hstack, (angles, rates, accelerations))), instants
+
+    def _shapes(
+        self,
+        instants: list[StackedInstants],
+        times: FloatArray,
+        time_of: IntArray,
+        angles: FloatArray,
+        rates: FloatArray,
+    ) -> Shapes:
+        """Shapes of angles and rates (K, C) at `times` (K,), the distinct ones being `time_of`."""
+        stacks, of = [], []
+        for side, each in enumerate(instants):
+            own = slice(side * self._joints, (side + 1) * self._joints)
+            if each.shapes is not None:
+                stacks.append(each.shapes)
+                of.append(time_of)
+                continue
+            own_angles, own_rates = angles[:, own], rates[:, own]
+            alike = groups_of(time_of, own_angles[:, self._rigid_joint_count :].copy())
+            first = alike.first
+            stacks.append(
+                self._instants[side].shapes(times[first], own_angles[first], own_rates[first])
+            )
+            of.append(alike.of)
+        return Shapes(stacks[0], stacks[-1], of[0], of[-1])
+
+    def _refuse_misplaced(
+        self, times: FloatArray, angles: FloatArray, clearance: FloatArray
+    ) -> None:
+        """Raise `StateError` where one of the wings has no clearance (K, 2)."""
         misplaced = ~(clearance >= 0.0)
         if misplaced.any():
-            k = int(np.argmax(misplaced))
-            raise wing_misplaced(self._bird, float(times[k]), motion.angles[k], float(clearance[k]))
-        return found
+            k, side = np.unravel_index(int(np.argmax(misplaced)), misplaced.shape)
+            own = angles[k, : self._joints]
+            if side == 1 and not self._is_mirrored:
+                own = angles[k, self._joints :]
+            raise wing_misplaced(self._bird, float(times[k]), own, float(clearance[k, side]))

@@ -49,7 +49,8 @@ class BirdModel(ABC):
         self, bird: Bird, *, steps_per_beat: int | None = None, gust: Gust | None = None
     ) -> None:
         self.bird = bird
-        self.wing = wing_arrays(bird)
+        self.wing = wing_arrays(bird.side("right"))
+        self.left_wing = self.wing if bird.is_symmetric else wing_arrays(bird.side("left"))
         self.airframe = airframe(bird)
         self._gust = gust
         self.period: float | None = bird.period
@@ -81,6 +82,11 @@ class BirdModel(ABC):
     def flow(self, x0: npt.ArrayLike, t0: float, t1: float) -> FloatArray:
         """State (n,) at t1 (s) of the flight through x0 (n,) at t0; raises `StateError`."""
 
+    @property
+    def is_mirrored(self) -> bool:
+        """Whether the left wing is the mirror image of the right one in every state."""
+        return self.bird.is_symmetric and not self.motion.lateral.any()
+
     def air_velocities(self, times: FloatArray) -> FloatArray:
         """Velocities (K, 3) m/s of the air at `times` (K,) s: forwards, to the right and down.
 
@@ -90,7 +96,7 @@ class BirdModel(ABC):
         if self._gust is None:
             return np.zeros((times.size, 3))
         found = np.array([velocity_of(self._gust, t) for t in times.tolist()]).reshape(-1, 3)
-        if not self.motion.lateral.any() and found[:, 1].any():
+        if self.is_mirrored and found[:, 1].any():
             raise ArgumentError('a side gust needs a model that moves in space (motion="free").')
         return found
 
@@ -122,13 +128,9 @@ class BirdModel(ABC):
         elements = place_elements(shape_at(shapes, 0), self.wing.root)
         return float(2.0 * np.sum(elements.chord * elements.width))
 
-    def body_state(self, x: FloatArray) -> FloatArray:
-        """The body's part of a state, u, w, q, theta (4,) in planar motion."""
-        return x[: len(self.motion.states)]
-
     def body_in_space(self, states: FloatArray) -> FloatArray:
         """The body's states in space (K, 8), as `SPACE_STATES`, of states (K, n)."""
-        return self.motion.in_space(np.array([self.body_state(x) for x in states]))
+        return self.motion.in_space(states)
 
     def joint_motion(self, t: float, x: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Angles (A,) rad and rates (A,) rad/s of the right wing's joints and hinges at t (s)."""
@@ -137,11 +139,27 @@ class BirdModel(ABC):
         return angles, rates
 
     def joint_motion_along(
-        self, times: FloatArray, _states: FloatArray
+        self, times: FloatArray, states: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
         """As `joint_motion`, each (K, A), at `times` (K,) s in states (K, n)."""
-        angles, rates, _ = driver_motion_along(self.wing, times)
+        angles, rates = self.motion_of_both(times, states)
+        return angles[:, 0], rates[:, 0]
+
+    def motion_of_both(
+        self, times: FloatArray, _states: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Angles and rates, each (K, 2, A), of joints and hinges of the right and the left wing."""
+        angles, rates, _ = self.drivers_of_both(times)
         return angles, rates
+
+    def drivers_of_both(self, times: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Driver angles, rates and accelerations, each (K, 2, A), at `times` (K,) s."""
+        right = driver_motion_along(self.wing, times)
+        left = right if self.bird.is_symmetric else driver_motion_along(self.left_wing, times)
+        angles, rates, accelerations = (
+            np.stack(pair, axis=1) for pair in zip(right, left, strict=True)
+        )
+        return angles, rates, accelerations
 
     def actuator_torques(self, t: float, x: npt.ArrayLike) -> FloatArray:
         """Torques (A,) N m that move joints and hinges, both wings, at t (s) in state x (n,).
@@ -149,13 +167,20 @@ class BirdModel(ABC):
         Of massless wings: those that balance the air.
         """
         times, states = np.array([t]), np.asarray(x, dtype=float)[None, :]
-        return self.actuator_torques_along(times, states, self.loads_along(times, states))[0]
+        loads = self.loads_along(times, states)
+        return np.asarray(self.actuator_torques_along(times, states, loads)[0].sum(axis=0))
 
     def actuator_torques_along(
         self, _times: FloatArray, _states: FloatArray, loads: LoadsAlong
     ) -> FloatArray:
-        """As `actuator_torques`, (K, A), at `times` (K,) s in states (K, n) with these loads."""
-        return -(loads.stack.joint_torques + loads.stack.left_joint_torques)
+        """As `actuator_torques`, (K, 2, A), right and left wing apart, with these loads."""
+        return -loads.joint_torques
+
+    def holding_power(
+        self, times: FloatArray, _states: FloatArray, _loads: LoadsAlong
+    ) -> FloatArray:
+        """Power (K,) W of what holds the body in its motion; 0 where it flies."""
+        return np.zeros(times.size)
 
     def loads(self, t: float, x: npt.ArrayLike) -> Loads:
         """Aerodynamic loads at time t (s) in state x (n,).
@@ -172,12 +197,14 @@ class BirdModel(ABC):
         if not finite.all():
             t = float(times[np.argmin(finite)])
             raise StateError(f"loads asked for at t = {t:.6g} s in a state that is not finite.")
-        angles, rates = self.joint_motion_along(times, states)
+        angles, rates = self.motion_of_both(times, states)
         with overflow_told(self.bird, f"the force of the air at t = {times[0]:.4g} s"):
             shapes, shape_of = self._shapes_along(times, angles, rates)
-            if not shapes.converged[shape_of].all():
-                k = int(np.argmin(shapes.converged[shape_of]))
-                raise lifting_line_lost(self.bird, float(times[k]), angles[k])
+            for side, of in enumerate(shape_of):
+                converged = shapes[side].converged[of]
+                if not converged.all():
+                    k = int(np.argmin(converged))
+                    raise lifting_line_lost(self.bird, float(times[k]), angles[k, side])
             stack = loads_along(
                 self.wing,
                 shapes,
@@ -186,27 +213,43 @@ class BirdModel(ABC):
                 self.airframe,
                 angles,
                 rates,
-                self._twist_through_air(times, states),
+                self._twist_through_air(times, self.body_in_space(states)),
             )
-        misplaced = ~(stack.clearance >= 0.0)
-        if misplaced.any():
-            k = int(np.argmax(misplaced))
-            t, distance = float(times[k]), float(stack.clearance[k])
-            raise wing_misplaced(self.bird, t, angles[k], distance)
+        for side, wing in enumerate((stack.right, stack.left)):
+            misplaced = ~(wing.clearance >= 0.0)
+            if misplaced.any():
+                k = int(np.argmax(misplaced))
+                t, distance = float(times[k]), float(wing.clearance[k])
+                raise wing_misplaced(self.bird, t, angles[k, side], distance)
         return LoadsAlong(stack, self.airframe)
 
+    @abstractmethod
     def _shapes_along(
-        self, _times: FloatArray, angles: FloatArray, rates: FloatArray
-    ) -> tuple[StackedShapes, IntArray]:
-        """Shapes of the wing, those joints at zero that turn it, and which (K,) is whose."""
-        shapes = wing_shapes(self.wing, angles, rates, *self.discretisation)
-        return shapes, np.arange(len(angles))
+        self, times: FloatArray, angles: FloatArray, rates: FloatArray
+    ) -> tuple[tuple[StackedShapes, StackedShapes], IntArray]:
+        """Shapes of right and left wing at angles and rates (K, 2, A), and which (2, K) is whose.
 
-    def _twist_through_air(self, times: FloatArray, states: FloatArray) -> FloatArray:
-        """Twist (K, 6) of the body relative to the air, m/s and rad/s."""
-        space = self.body_in_space(states)
-        air = along_body(space, self.air_velocities(times))
-        return np.hstack([space[:, :3] - air, space[:, 3:6]])
+        Those with the joints at zero that turn a wing as a whole.
+        """
+
+    def _twist_through_air(self, times: FloatArray, space: FloatArray) -> FloatArray:
+        """Twist (K, 6) of the body relative to the air, m/s and rad/s, in states (K, 8)."""
+        twist = space[:, :6].copy()
+        if self._gust is not None:
+            twist[:, :3] -= along_body(space, self.air_velocities(times))
+        return twist
+
+    def _refuse_upright(self, times: FloatArray, states: FloatArray) -> None:
+        """Raise `StateError` where the angles of motion in space end."""
+        if not self.motion.lateral.any():
+            return
+        upright = np.abs(states[:, self.state_names.index("theta")]) >= 0.5 * np.pi
+        if upright.any():
+            t = float(times[np.argmax(upright)])
+            raise StateError(
+                f"{self.bird.name}: at t = {t:.4g} s the body pitches beyond 90 degrees, where "
+                'roll and heading are not told apart (motion="free").'
+            )
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle as the call that makes the model: compiled tables are made again where needed."""

@@ -66,7 +66,7 @@ def _over_a_beat(model: RigidModel, state: FloatArray) -> tuple[FloatArray, floa
     loads = [model.loads(t, state) for t in times]
     return (
         np.array([at.force for at in loads]),
-        max(float(np.abs(at.circulation).max()) for at in loads),
+        max(float(np.abs(at.right.circulation).max()) for at in loads),
     )
 
 

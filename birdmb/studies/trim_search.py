@@ -175,7 +175,7 @@ class TrimSearch:
         if len(model.state_names) > x.size:
             x = cast("HasInitialGuess", model).initial_guess()
         still = model.loads(0.0, x)
-        area = 2.0 * float((still.chord * still.width).sum())
+        area = 2.0 * float((still.right.chord * still.right.width).sum())
         bird = model.bird
         lift = 0.5 * bird.air.density * area * _LIFT_COEFFICIENT
         fastest = np.sqrt(model.mass * bird.gravity / lift) if lift else 0.0

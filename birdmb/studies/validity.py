@@ -28,6 +28,7 @@ import xarray as xr
 
 from birdmb._typing import BoolArray, FloatArray
 from birdmb.models import FlightCycle
+from birdmb.models.loads_kernel import StackedWing
 from birdmb.wing.outline import areas_across, wing_outline
 
 if TYPE_CHECKING:
@@ -65,11 +66,14 @@ class ValidityViolation:
     """The same as a part of the beat, in [0, 1); 0 is where the drivers' time is 0."""
     share: float
     """Part of the wing's area, averaged over the beat, that is beyond the limit."""
+    side: str = ""
+    """"right" or "left" where both wings do not do the same, else empty."""
 
     def __str__(self) -> str:
         """Say what, how much, where and when."""
+        of_wing = f" of the {self.side} wing" if self.side else ""
         where = (
-            f"at element {self.element}, {self.span_position:.3g} m along the span "
+            f"at element {self.element}{of_wing}, {self.span_position:.3g} m along the span "
             f"({self.span_fraction:.0%} of the half-span), at t = {self.time:.4g} s "
             f"(phase {self.phase:.2f} of the beat)"
         )
@@ -142,7 +146,8 @@ class Validity:
     """How far a flight is from the limits of the quasi-steady model.
 
     Attributes:
-        data: by `time` (s) and `element` (from the root): `angle_of_attack` (geometric),
+        data: of the right wing, or of the one that comes closer to the limits where both do not do
+            the same, by `time` (s) and `element` (from the root): `angle_of_attack` (geometric),
             `effective_angle_of_attack` (rad), `reduced_frequency` (local, pi f c/|U|), `area`
             (m2, of one wing's elements), `judged` (False at the tip); coordinates `phase`,
             `span_position` (m along the lifting line from the plane of symmetry) and
@@ -166,13 +171,19 @@ class Validity:
     def strouhal_number(self) -> float:
         """f A/U, with A the distance between the highest and the lowest place of the wing tip.
 
-        Relative to the body, along its z axis (Taylor, Nudds & Thomas 2003).
+        Relative to the body, along its z axis (Taylor, Nudds & Thomas 2003); of the wing that moves
+        further.
         """
         model, beat = self.cycle.bird_model, self.cycle.beat
-        angles, _ = model.joint_motion_along(beat.times, beat.states)
+        angles, _ = model.motion_of_both(beat.times, beat.states)
         discretisation = model.bird.wing.resolved_discretisation
-        heights = [wing_outline(model.wing, at, discretisation).line[-1, 2] for at in angles]
-        return model.bird.gait.frequency * float(np.ptp(heights)) / self.cycle.mean_speed
+        sides = [0] if model.is_mirrored else [0, 1]
+        heights = [
+            [wing_outline(model.wing, at, discretisation).line[-1, 2] for at in angles[:, side]]
+            for side in sides
+        ]
+        amplitude = float(np.ptp(heights, axis=1).max())
+        return model.bird.gait.frequency * amplitude / self.cycle.mean_speed
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -182,8 +193,7 @@ class Validity:
     @property
     def largest_angle_of_attack(self) -> float:
         """Largest modulus of the effective angle, rad, without the tip."""
-        angle = self.data["effective_angle_of_attack"].values
-        return float(np.abs(angle[self.data["judged"].values]).max())
+        return _largest_angle(self.data)
 
     def plot(self) -> Figure:
         """Draw both angles of attack over beat and span, with the limits of validity."""
@@ -212,16 +222,23 @@ def assess_validity(
     """
     model = cycle.bird_model
     frequency = model.bird.gait.frequency
-    data = _along_span_and_beat(cycle, frequency).assign_attrs(
-        bird=model.bird.name, largest_angle=largest_angle, tip_area=TIP_AREA
-    )
+    stack = cycle.beat.loads_along.stack
+    wings = [stack.right] if model.is_mirrored else [stack.right, stack.left]
+    sides = [""] if model.is_mirrored else ["right", "left"]
+    each = [
+        _along_span_and_beat(cycle, frequency, wing).assign_attrs(
+            bird=model.bird.name, side=side, largest_angle=largest_angle, tip_area=TIP_AREA
+        )
+        for wing, side in zip(wings, sides, strict=True)
+    ]
+    data = max(each, key=_largest_angle)
     area = data["area"].values[:-1]
-    span = cycle.beat.loads_along.stack.width[:-1].sum(axis=1)
+    span = stack.right.width[:-1].sum(axis=1)
     mean_chord = float((area.sum(axis=1) / span).mean())
     k = np.pi * frequency * mean_chord / cycle.mean_speed
-    excesses: list[ValidityViolation | TailViolation | Overlap] = list(
-        _beyond_angle(data, largest_angle)
-    )
+    excesses: list[ValidityViolation | TailViolation | Overlap] = [
+        excess for of_wing in each for excess in _beyond_angle(of_wing, largest_angle)
+    ]
     if k > largest_reduced_frequency:
         local = data["reduced_frequency"].values
         beyond = local > largest_reduced_frequency
@@ -232,8 +249,10 @@ def assess_validity(
     tail_angle = np.abs(cycle.beat.tail_angle[:-1])
     if (tail_angle > largest_tail_angle).any():
         excesses.append(TailViolation(*_worst_of_beat(cycle, tail_angle, largest_tail_angle)))
-    angles, _ = model.joint_motion_along(cycle.beat.times[:-1], cycle.beat.states[:-1])
-    overlap = areas_across(model.wing, angles, model.bird.wing.resolved_discretisation)
+    angles, _ = model.motion_of_both(cycle.beat.times[:-1], cycle.beat.states[:-1])
+    numbers = model.bird.wing.resolved_discretisation
+    overlaps = [areas_across(model.wing, angles[:, i], numbers) for i in range(len(sides))]
+    overlap = np.max(overlaps, axis=0)
     if (overlap > largest_overlap).any():
         excesses.append(Overlap(*_worst_of_beat(cycle, overlap, largest_overlap)))
     return Validity(
@@ -255,9 +274,13 @@ def _worst_of_beat(
     return float(values.max()), limit, time, phase, float(np.mean(values > limit))
 
 
-def _along_span_and_beat(cycle: FlightCycle, frequency: float) -> xr.Dataset:
+def _largest_angle(data: xr.Dataset) -> float:
+    angle = data["effective_angle_of_attack"].values
+    return float(np.abs(angle[data["judged"].values]).max())
+
+
+def _along_span_and_beat(cycle: FlightCycle, frequency: float, loads: StackedWing) -> xr.Dataset:
     beat = cycle.beat
-    loads = beat.loads_along.stack
     chord, width, speed, circulation = loads.chord, loads.width, loads.speed, loads.circulation
     along, length = _span_positions(loads.position, width)
     area = chord * width
@@ -327,4 +350,5 @@ def _excess(
         time=float(at["time"]),
         phase=float(at["phase"]),
         share=float((area * beyond[:-1]).sum() / area.sum()),
+        side=data.attrs["side"],
     )

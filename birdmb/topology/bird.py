@@ -7,7 +7,7 @@ import json
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from itertools import pairwise
-from typing import Any, Self
+from typing import Any, Literal, Self
 
 from pydantic import Field, field_validator, model_validator
 
@@ -107,6 +107,15 @@ class Bird(Part):
                         f"the nearest: {nearest(joint, self.joint_names)}",
                         f"feathers.{feather.name}.shares",
                     )
+        return self
+
+    @property
+    def is_symmetric(self) -> bool:
+        """Whether all joints have the same values on both sides."""
+        return True
+
+    def side(self, name: Literal["right", "left"]) -> Self:  # noqa: ARG002
+        """The symmetric bird whose joints have the values of one side."""
         return self
 
     @property

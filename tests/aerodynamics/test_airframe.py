@@ -5,7 +5,7 @@ import pytest
 
 from birdmb.aerodynamics.airframe import airframe, planar_airframe_loads
 from birdmb.aerodynamics.body_drag import body_drag_force
-from birdmb.aerodynamics.prescribed import free_loads, odd_wing, prescribed_wing, symmetric_loads
+from birdmb.aerodynamics.prescribed import free_loads, odd_wakes, prescribed_wing, symmetric_loads
 from birdmb.aerodynamics.tail import tail_angle, tail_force, tail_influence, tail_surface
 from birdmb.wing.arrays import wing_arrays
 
@@ -167,7 +167,7 @@ def test_derivatives_of_all_loads_are_exact(bird, downwash):
     everything = np.arange(6)
 
     def loads(twist):
-        return free_loads(table, odd_wing(table), 0, frame, twist, everything)
+        return free_loads(table, table, odd_wakes(table), 0, frame, twist, everything)
 
     exact = loads(twist)[:, 1:]
     errors = []
@@ -210,7 +210,7 @@ def test_loads_of_symmetric_flight_are_what_they_were(bird, at):
     planar = symmetric_loads(table, k, frame, twist, np.array([0, 2, 4]))
     np.testing.assert_allclose(planar[::2], PLANAR_LOADS[at], rtol=1e-12, atol=1e-13)
     assert not planar[1::2].any()
-    free = free_loads(table, odd_wing(table), k, frame, twist, np.arange(6))
+    free = free_loads(table, table, odd_wakes(table), k, frame, twist, np.arange(6))
     np.testing.assert_allclose(free[:, [0, 1, 3, 5]], planar, rtol=1e-12, atol=1e-13)
     # Sideways motion answers with sideways loads alone.
     np.testing.assert_allclose(free[::2, [2, 4, 6]], 0.0, atol=1e-12)

@@ -5,7 +5,6 @@ import pytest
 
 from birdmb.aerodynamics.airframe import Airframe
 from birdmb.aerodynamics.body_drag import BodyDrag
-from birdmb.aerodynamics.circulation import element_loads, resultant
 from birdmb.aerodynamics.elements import circulation_system, place_elements
 from birdmb.aerodynamics.joints import joint_torques
 from birdmb.aerodynamics.prescribed import (
@@ -19,6 +18,7 @@ from birdmb.aerodynamics.tail import TailSurface
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.chain import joint_chain
 from birdmb.wing.shape import WingShape, wing_shape
+from tests.aerodynamics.pairs import element_loads, resultant
 
 # Small, so that what is left is the discretisation and not alpha squared.
 DENSITY, SPEED, ALPHA = 1.225, 10.0, 1e-3

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 import birdmb
-from birdmb.aerodynamics.circulation import element_loads
 from birdmb.aerodynamics.elements import clearance, place_elements
 from birdmb.models.wing_model import wing_misplaced
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.shape import wing_shape
+from tests.aerodynamics.pairs import element_loads
 from tests.aerodynamics.test_circulation import DENSITY, both_wings, flat_wing, wind
 from tests.wing.test_square_tip import EVEN, STILL, lift, straight_aft
 
@@ -44,7 +44,7 @@ def test_circulations_stay_what_they_are_as_the_line_nears_the_plane(ibis, eleme
         values = {"wing.root.y": root, "wing.discretisation.elements": elements}
         model = birdmb.RigidModel(ibis.with_values(values))
         times = np.arange(8) / 8 * model.period
-        return max(np.abs(model.loads(t, STATE).circulation).max() for t in times)
+        return max(np.abs(model.loads(t, STATE).right.circulation).max() for t in times)
 
     assert largest(0.0166) == pytest.approx(largest(0.03), rel=0.01)
 

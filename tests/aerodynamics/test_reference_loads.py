@@ -21,8 +21,10 @@ def test_loads_are_the_reference_programs(ibis_published, reference):
             side, up, back, moment = reference["F"][i, j, [0, 1, 2, 3]]
             found = [loads.force[1], -loads.force[2], -loads.force[0], loads.moment[1]]
             np.testing.assert_allclose(found, [side, up, back, moment], atol=2e-5)
-            np.testing.assert_allclose(loads.circulation, reference["gamma"][i, j, 8:], atol=1e-6)
             np.testing.assert_allclose(
-                loads.angle_of_attack, reference["alpha"][i, j, 8:], atol=1e-6
+                loads.right.circulation, reference["gamma"][i, j, 8:], atol=1e-6
+            )
+            np.testing.assert_allclose(
+                loads.right.angle_of_attack, reference["alpha"][i, j, 8:], atol=1e-6
             )
             assert loads.power == pytest.approx(reference["Pkin"][i, j], abs=1e-4)

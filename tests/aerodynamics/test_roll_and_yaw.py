@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from birdmb.aerodynamics.elements import place_elements
-from birdmb.aerodynamics.twist_loads import loads_of_both, mirrored
+from birdmb.aerodynamics.pair import pair_loads
+from birdmb.aerodynamics.twist_loads import mirrored
 from birdmb.wing.shape import WingShape
 
 from .test_circulation import flat_wing
@@ -23,7 +24,7 @@ def wrench(placed, twist):
 
 
 def _both(placed, twist):
-    return loads_of_both(placed, DENSITY, 0.0, np.asarray(twist, float))
+    return pair_loads(placed, placed, False, DENSITY, 0.0, np.asarray(twist, float))
 
 
 @pytest.mark.parametrize("aspect_ratio", [6.0, 12.0])

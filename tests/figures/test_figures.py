@@ -116,7 +116,7 @@ def test_wings_are_drawn_to_one_scale_with_their_circulation(cycle):
     assert right[0] - origin[0] == pytest.approx(up[1] - origin[1])
     wings = [c for c in axes.collections if isinstance(c, PolyCollection)]
     assert len(wings) == 12
-    circulation = cycle.beat.loads[0].circulation
+    circulation = cycle.beat.loads[0].right.circulation
     assert np.allclose(np.sort(wings[0].get_array()), np.sort(np.tile(circulation, 2)))
     (_, front, top) = (np.vstack([p.vertices for p in wings[i].get_paths()]) for i in (0, 4, 8))
     assert np.ptp(front[:, 0]) == pytest.approx(np.ptp(top[:, 0]))

@@ -87,18 +87,32 @@ def rod(bird, feather):
     return root, R.inv().apply(followed.apply(outwards.apply(aft)))
 
 
+def along(c, in_space):
+    return np.array(c[:3] if in_space else [c[0], 0.0, c[1]], dtype=float)
+
+
 def walk(bird, q, v, a):
-    """All bodies, and for each rotational coordinate its axis and a point on it, in the world."""
+    """All bodies, and for each rotational coordinate its axis and a point on it, in the world.
+
+    The body's coordinates are X, Z and pitch, or X, Y, Z, yaw, pitch and roll.
+    """
     y = np.array([0.0, 1.0, 0.0])
     still = np.zeros(3)
-    start = Frame(np.eye(3), *(np.array([c[0], 0.0, c[1]]) for c in (q, v, a)), still, still)
-    trunk = start.turned(y, q[2], v[2], a[2])
-    axes = {2: (y, start.origin)}
-    bodies = [Body(bird.body.mass, np.diag([0.0, bird.body.inertia_yy, 0.0]), trunk, [2])]
-    root = np.array([bird.wing.root.x, bird.wing.root.y, bird.wing.root.z])
     joints, angles = len(bird.joints), len(bird.angle_names)
-    for side, first in ((np.eye(3), 3), (MIRROR, 3 + angles)):
-        frame, path = trunk.moved(side @ root), [2]
+    in_space = len(q) - 2 * angles == 6
+    slides = 3 if in_space else 2
+    trunk = Frame(np.eye(3), *(along(c, in_space) for c in (q, v, a)), still, still)
+    axes, own = {}, []
+    for k, axis in enumerate(np.eye(3)[::-1] if in_space else [y], start=slides):
+        axes[k] = (trunk.R @ axis, trunk.origin)
+        trunk = trunk.turned(axis, q[k], v[k], a[k])
+        own.append(k)
+    inertia = bird.body.inertia_tensor if in_space else np.diag([0.0, bird.body.inertia_yy, 0.0])
+    bodies = [Body(bird.body.mass, inertia, trunk, own)]
+    root = np.array([bird.wing.root.x, bird.wing.root.y, bird.wing.root.z])
+    first_of_right = slides + len(own)
+    for side, first in ((np.eye(3), first_of_right), (MIRROR, first_of_right + angles)):
+        frame, path = trunk.moved(side @ root), own
         for bone in ("humerus", "forearm", "hand"):
             segment = getattr(bird.segments, bone)
             for j, joint in enumerate(bird.joints):
@@ -138,8 +152,8 @@ def inverse_dynamics(bird, q, v, a):
         force = body.mass * (f.acceleration - np.array([0.0, 0.0, bird.gravity]))
         inertia = R @ body.inertia @ R.T
         moment = inertia @ f.spin_rate + np.cross(f.spin, inertia @ f.spin)
-        forces[0] += force[0]
-        forces[1] += force[2]
+        slides = [0, 1, 2] if bodies[0].path[0] == 3 else [0, 2]
+        forces[: len(slides)] += force[slides]
         for k in body.path:
             axis, point = axes[k]
             forces[k] += axis @ (moment + np.cross(f.origin - point, force))

@@ -90,7 +90,7 @@ def test_a_neighbour_s_cycle_is_a_start(ibis_compliant, compliant_cycle):
 
 
 def test_a_tethered_bird_is_collocated_too(ibis_compliant):
-    model = birdmb.models.TetheredModel(ibis_compliant, [18.0, -2.0, 0.0, -0.1])
+    model = birdmb.MultibodyModel(ibis_compliant, motion="held", body_state=[18.0, -2.0, 0.0, -0.1])
     found = birdmb.find_limit_cycle(model)
     shot = birdmb.find_limit_cycle(model, found.x0, method="shooting")
     assert found.method == "collocation"

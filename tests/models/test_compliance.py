@@ -29,7 +29,7 @@ def one_bone(ibis, **flap):
 def test_a_free_hinge_is_a_pendulum(ibis):
     """Released horizontally: T = 4 K(1/sqrt 2) sqrt(l/g) = 2.367841947576 s."""
     bird = one_bone(ibis, stiffness=0.0, damping=0.0)
-    model = birdmb.TetheredModel(bird, STILL, steps_per_beat=120)
+    model = birdmb.MultibodyModel(bird, motion="held", body_state=STILL, steps_per_beat=120)
 
     def rate_at(t):
         return model.flow([0.0, 0.0], 0.0, t)[1]
@@ -57,7 +57,9 @@ def test_a_spring_and_damper_against_the_closed_form(ibis, stiffness, expected, 
             "shoulder.flap.amplitude_deg": 20.0,
         }
     )
-    model = birdmb.TetheredModel(bird, STILL, integrator=integrator, steps_per_beat=60)
+    model = birdmb.MultibodyModel(
+        bird, motion="held", body_state=STILL, integrator=integrator, steps_per_beat=60
+    )
     cycle = birdmb.find_limit_cycle(model)
     roots = np.roots([0.03, 0.2, stiffness])
     exact = np.exp(roots * 0.25)
@@ -106,13 +108,17 @@ def test_a_stiff_joint_is_integrated_implicitly_without_being_asked(ibis_massles
             for key in ("mass", "inertia")
         }
     )
-    stiff = birdmb.TetheredModel(heavier, [18.0, -2.0, 0.0, -0.1])
+    stiff = birdmb.MultibodyModel(heavier, motion="held", body_state=[18.0, -2.0, 0.0, -0.1])
     assert stiff.integration == ("implicit", 60)
     cycle = birdmb.find_limit_cycle(stiff)
     assert cycle.residual < 1e-8
     assert np.abs(cycle.multipliers).max() < 1e-3
-    explicit = birdmb.TetheredModel(
-        heavier, [18.0, -2.0, 0.0, -0.1], integrator="explicit", steps_per_beat=4800
+    explicit = birdmb.MultibodyModel(
+        heavier,
+        motion="held",
+        body_state=[18.0, -2.0, 0.0, -0.1],
+        integrator="explicit",
+        steps_per_beat=4800,
     )
     end = explicit.flow(cycle.x0, 0.0, 0.05)
     np.testing.assert_allclose(stiff.flow(cycle.x0, 0.0, 0.05), end, rtol=1e-5, atol=1e-5)
@@ -124,7 +130,7 @@ def test_cubic_springs_against_energy(ibis):
     bird = one_bone(ibis, stiffness=5.0, damping=0.0).with_values(
         {"gravity": 0.0, "shoulder.flap.cubic_stiffness": 40.0}
     )
-    model = birdmb.TetheredModel(bird, STILL, steps_per_beat=240)
+    model = birdmb.MultibodyModel(bird, motion="held", body_state=STILL, steps_per_beat=240)
     amplitude = 0.5
     passing = brentq(lambda t: model.flow([amplitude, 0.0], 0.0, t)[0], 0.2, 0.9, xtol=1e-12)
     rate = model.flow([amplitude, 0.0], 0.0, passing)[1]
@@ -137,7 +143,7 @@ def test_asymmetric_springs_swing_further_on_the_softer_side(ibis):
     bird = one_bone(ibis, stiffness=20.0, damping=0.0).with_values(
         {"gravity": 0.0, "shoulder.flap.stiffness_below": 5.0}
     )
-    model = birdmb.TetheredModel(bird, STILL, steps_per_beat=960)
+    model = birdmb.MultibodyModel(bird, motion="held", body_state=STILL, steps_per_beat=960)
     turn = np.pi / 2 * (1 / np.sqrt(20.0) + 1 / np.sqrt(5.0))
     # A quarter of the period on either side brings it to rest at twice the angle.
     angle, rate = model.flow([0.1, 0.0], 0.0, turn)
@@ -151,7 +157,7 @@ def test_stiffness_to_infinity_goes_to_the_prescribed_joint(ibis):
     gaps = []
     for k in (3e2, 3e3):
         sprung = bird.with_joint("shoulder.flap", stiffness=k, damping=0.02 * np.sqrt(k))
-        model = birdmb.TetheredModel(sprung, [18.0, -2.0, 0.0, -0.1])
+        model = birdmb.MultibodyModel(sprung, motion="held", body_state=[18.0, -2.0, 0.0, -0.1])
         cycle = birdmb.find_limit_cycle(model)
         gaps.append(np.abs(cycle.x0 - model.driven_state(0.0)))
     orders = np.log10(np.array(gaps[0]) / gaps[1])
@@ -160,4 +166,4 @@ def test_stiffness_to_infinity_goes_to_the_prescribed_joint(ibis):
 
 def test_a_held_body_does_not_turn(ibis_compliant):
     with pytest.raises(ValueError, match="cannot turn"):
-        birdmb.TetheredModel(ibis_compliant, [10.0, 0.0, 0.1, 0.0])
+        birdmb.MultibodyModel(ibis_compliant, motion="held", body_state=[10.0, 0.0, 0.1, 0.0])

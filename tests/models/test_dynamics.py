@@ -34,7 +34,7 @@ def applied(model, t, x):
     fx, _, fz = loads.force
     angles, rates = model.joint_motion(t, np.asarray(x))
     q, v, _ = driver_motion(model.wing, t)
-    torque = loads.joint_torques.copy()
+    torque = loads.right.joint_torques.copy()
     for j, joint in enumerate(model.bird.joints):
         if joint.mode == "compliant":
             torque[j] -= joint.stiffness * (angles[j] - q[j])

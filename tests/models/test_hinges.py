@@ -47,7 +47,9 @@ def test_free_decay_against_the_closed_form(ibis, integrator, steps, error):
             "feathers.3.hinge": other,
         },
     )
-    model = birdmb.TetheredModel(bird, STILL, integrator=integrator, steps_per_beat=steps)
+    model = birdmb.MultibodyModel(
+        bird, motion="held", body_state=STILL, integrator=integrator, steps_per_beat=steps
+    )
     assert model.state_names == (
         "feathers.5.hinge", "feathers.5.hinge.rate", "feathers.3.hinge", "feathers.3.hinge.rate",
     )  # fmt: skip
@@ -68,7 +70,7 @@ def test_weight_deflects_a_hinge_as_far_as_its_spring_lets_it(ibis):
     """k phi = m g (l/2) cos(phi), tip down positive: no other load than gravity."""
     hinge = {"stiffness": 0.05, "damping": 2e-3, "mass": 5e-3}
     bird = held_still(ibis, **{"air.density": 0.0, "feathers.5.hinge": hinge})
-    model = birdmb.TetheredModel(bird, STILL)
+    model = birdmb.MultibodyModel(bird, motion="held", body_state=STILL)
     expected = brentq(lambda phi: 0.05 * phi - 5e-3 * 9.81 * 0.075 * np.cos(phi), 0.0, 1.0)
     assert expected > 0.07
     np.testing.assert_allclose(model.rhs(0.0, [expected, 0.0]), 0.0, atol=1e-9)
@@ -79,11 +81,11 @@ def test_weight_deflects_a_hinge_as_far_as_its_spring_lets_it(ibis):
 def test_air_deflects_a_hinge_as_far_as_its_spring_lets_it(ibis):
     """In a glide, k phi = the work of the air's forces along a turn of the hinge."""
     bird = held_still(ibis, **{"feathers.5.hinge": HINGE, "gravity": 0.0})
-    model = birdmb.TetheredModel(bird, GLIDE)
+    model = birdmb.MultibodyModel(bird, motion="held", body_state=GLIDE)
     phi, rate = model.flow([0.0, 0.0], 0.0, 0.5)
     assert abs(rate) < 1e-9
     assert np.radians(-10) < phi < np.radians(-1)
-    force = model.loads(0.0, [phi, 0.0]).element_force
+    force = model.loads(0.0, [phi, 0.0]).right.force
     angles, h = np.append(np.zeros(6), phi), 1e-5
     work = [
         np.sum(force * wing_shape(model.wing, a, 0 * a, *model.discretisation).line[0::2])
@@ -140,7 +142,7 @@ def test_what_hinges_take_is_what_their_dampers_dissipate(cycle, shipped):
     beat = cycle.beat
     for h, feather in enumerate(shipped.hinged_feathers):
         hinge, j = feather.hinge, len(shipped.joints) + h
-        angle, rate = beat.states[:, 4 + 2 * h], beat.joint_rates[:, j]
+        angle, rate = beat.states[:, 4 + 2 * h], beat.joint_rates[:, 0, j]
         np.testing.assert_array_equal(rate, beat.states[:, 5 + 2 * h])
         spring = -2 * hinge.stiffness * (angle - hinge.rest) * rate
         damper = -2 * hinge.damping * rate**2
@@ -156,9 +158,9 @@ def test_what_hinges_take_is_what_their_dampers_dissipate(cycle, shipped):
 
 def test_power_against_the_air_is_what_joints_hinges_and_fanning_feathers_deliver(cycle):
     """What the hinges' motion gives the air is in the torques about them, by virtual work."""
-    torques = np.array([loads.joint_torques for loads in cycle.beat.loads])
-    by_hinges = -2 * np.mean((torques * cycle.beat.joint_rates)[:-1, 6:].sum(axis=1))
-    by_joints = -2 * np.mean((torques * cycle.beat.joint_rates)[:-1, :6].sum(axis=1))
+    torques = np.array([loads.right.joint_torques for loads in cycle.beat.loads])
+    powers = -2 * (torques * cycle.beat.joint_rates[:, 0])[:-1]
+    by_hinges, by_joints = np.mean(powers[:, 6:].sum(axis=1)), np.mean(powers[:, :6].sum(axis=1))
     assert abs(by_hinges) > 1e-3
     assert by_joints + by_hinges + cycle.feather_power == pytest.approx(cycle.power, abs=1e-12)
 
@@ -220,7 +222,7 @@ def test_a_wing_that_runs_away_into_a_division_by_zero_is_told(shipped, cycle, m
     def no_wing(*_):
         raise ZeroDivisionError
 
-    monkeypatch.setattr("birdmb.models.instants.wing_shape", no_wing)
+    monkeypatch.setattr("birdmb.models.instants.wing_shapes", no_wing)
     with pytest.raises(birdmb.StateError, match="diverged"):
         model.flow(cycle.x0, 0.0, 0.1)
 

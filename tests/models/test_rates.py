@@ -7,6 +7,7 @@ import birdmb
 from birdmb.models.exudyn_tree import TreeInertia, tree_links
 from birdmb.models.gusts import GaussianGust
 from birdmb.models.row_groups import groups_of
+from birdmb.models.tree_coordinates import IN_PLANE, IN_SPACE, attitude, space_state
 from birdmb.models.tree_kernel import bias_forces, mass_matrix, placed_links
 from tests.conftest import TOPOLOGIES
 
@@ -75,13 +76,13 @@ def test_rates_do_not_depend_on_which_others_are_asked_for(ibis):
 def test_the_compiled_tree_is_exudyns(ibis):
     rng = np.random.default_rng(6)
     for bird in birds_of_all_kinds(ibis):
-        links = tree_links(bird)
+        links = tree_links(bird, IN_PLANE, is_mirrored=True)
         n, theta, pitch_rate = links.parent.size, -0.3, 0.7
         angles, rates = rng.uniform(-1.0, 1.0, n), rng.uniform(-20.0, 20.0, n)
         q, v = np.zeros(3 + 2 * n), np.zeros(3 + 2 * n)
         q[2:] = theta, *angles, *angles
         v[:] = 17.0, -3.0, pitch_rate, *rates, *rates
-        (mass,), (bias,) = TreeInertia(bird).at(q[None, :], v[None, :])
+        (mass,), (bias,) = TreeInertia(bird, IN_PLANE).at(q[None, :], v[None, :])
         alike = np.zeros((3 + 2 * n, 3 + n))  # accelerations of the tree by those of one wing
         c, s = np.cos(theta), np.sin(theta)
         alike[:3, :3] = [[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]
@@ -89,8 +90,32 @@ def test_the_compiled_tree_is_exudyns(ibis):
         placed = placed_links(links, angles)
         whole, part = alike.T @ mass @ alike, mass_matrix(links, placed)
         np.testing.assert_allclose(part, whole, atol=1e-14 * np.abs(whole).max())
-        whole, part = alike.T @ bias, bias_forces(links, placed, rates, pitch_rate, theta)
+        gravity = bird.gravity * np.array([-s, 0.0, c])
+        spin = np.array([0.0, pitch_rate, 0.0])
+        whole, part = alike.T @ bias, bias_forces(links, placed, rates, spin, gravity)
         np.testing.assert_allclose(part, whole, atol=1e-13 * np.abs(whole).max())
+
+
+def test_the_compiled_tree_is_exudyns_in_space(ibis):
+    """Both wings apart; the coordinates' accelerations hold terms of the turning axes besides."""
+    rng = np.random.default_rng(7)
+    for bird in birds_of_all_kinds(ibis):
+        links = tree_links(bird, IN_SPACE, is_mirrored=False)
+        n = links.parent.size
+        q, v, a = (rng.uniform(-1.0, 1.0, 6 + n) for _ in range(3))
+        (mass,), (bias,) = TreeInertia(bird, IN_SPACE).at(q[None, :], v[None, :])
+        needed = mass @ a + bias
+        h = 1e-5
+        ahead, back = (space_state(q[:6] + s * h * v[:6], v[:6] + s * h * a[:6]) for s in (1, -1))
+        state, R = space_state(q[:6], v[:6]), attitude(q[:6])
+        of_body = (ahead - back)[:6] / (2 * h)
+        of_body[:3] = R.T @ a[:3]
+        placed = placed_links(links, q[6:])
+        found = mass_matrix(links, placed) @ np.concatenate([of_body, a[6:]])
+        gravity = bird.gravity * R.T[:, 2]
+        found += bias_forces(links, placed, v[6:], state[3:6], gravity)
+        np.testing.assert_allclose(found[6:], needed[6:], atol=1e-8 * np.abs(needed).max())
+        np.testing.assert_allclose(R @ found[:3], needed[:3], atol=1e-8 * np.abs(needed).max())
 
 
 def test_rows_are_alike_if_key_and_all_values_are():
@@ -183,7 +208,9 @@ def test_the_mean_loads_balance_in_the_mean_trim(ibis, ibis_tail):
 
 def test_guess_along_of_a_multibody_bird_follows_the_drivers(ibis):
     model = birdmb.MultibodyModel(sprung(coarse(ibis), "shoulder.flap", "wrist.sweep"))
-    tethered = birdmb.TetheredModel(model.bird, (*STATE[:2], 0.0, STATE[3]))
+    tethered = birdmb.MultibodyModel(
+        model.bird, motion="held", body_state=(*STATE[:2], 0.0, STATE[3])
+    )
     times = np.array([0.0, 0.03, 0.2])
     guess = model.guess_along(times)
     np.testing.assert_array_equal(tethered.guess_along(times), guess[:, 4:])

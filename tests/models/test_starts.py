@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from birdmb import MultibodyModel, RigidModel, TetheredModel, find_limit_cycles, load_bird
+from birdmb import MultibodyModel, RigidModel, find_limit_cycles, load_bird
 from birdmb.aerodynamics.prescribed import driver_motion_along
 from birdmb.models.starts import steady_states
 
@@ -71,7 +71,7 @@ def test_compliant_joints_start_on_their_drivers_and_swinging(sprung):
 
 
 def test_a_tethered_bird_starts_on_its_drivers_only(sprung):
-    model = TetheredModel(sprung, [15.0, 0.0, 0.0, 0.0])
+    model = MultibodyModel(sprung, motion="held", body_state=[15.0, 0.0, 0.0, 0.0])
     (path,) = model.starting_paths(times_of(sprung))
     assert path.shape == (17, 2)
     assert np.isinf(model.state_periods).all()

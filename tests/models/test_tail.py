@@ -47,7 +47,7 @@ def test_components_are_switched_off_one_by_one(ibis_tail):
     np.testing.assert_array_equal(furled.force, without.loads(0.03, x).force)
     np.testing.assert_array_equal(furled.moment, without.loads(0.03, x).moment)
     np.testing.assert_array_equal(furled.body_force, 0.0)
-    np.testing.assert_array_equal(furled.profile_drag, 0.0)
+    np.testing.assert_array_equal(furled.right.profile_drag, 0.0)
 
 
 def test_multibody_goes_to_rigid_with_the_wings_mass(ibis_tail, tail_cycle):

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 import birdmb
-from birdmb.models import TetheredModel
 from birdmb.orbits.multipliers import verdict
 from tests.models.test_rigid_cycle import sorted_like
 
@@ -99,7 +98,13 @@ def test_what_is_no_flight(rigid_cycle, state, why):
 
 def test_the_verdict_on_a_tethered_bird_counts_its_steps_too(ibis_compliant):
     bird = ibis_compliant.with_values({"wing.discretisation": 4})
-    model = TetheredModel(bird, [18.0, -2.0, 0.0, -0.1], steps_per_beat=60, integrator="explicit")
+    model = birdmb.MultibodyModel(
+        bird,
+        motion="held",
+        body_state=[18.0, -2.0, 0.0, -0.1],
+        steps_per_beat=60,
+        integrator="explicit",
+    )
     cycle = shot(model)
     assert (cycle.verdict_errors > cycle.multiplier_errors).all()
 

@@ -15,7 +15,7 @@ from birdmb.wing.outline import wing_outline
 
 def with_circulation(cycle, changes):
     """The cycle with the effective angle (rad) put to given values at (time, element)."""
-    stack = cycle.beat.loads_along.stack
+    stack = cycle.beat.loads_along.stack.right
     circulation = stack.circulation.copy()
     for at, angle in changes.items():
         circulation[at] = np.pi * stack.chord[at] * stack.speed[at] * angle
@@ -24,7 +24,8 @@ def with_circulation(cycle, changes):
 
 def with_loads(cycle, **changes):
     """The cycle with other loads over its beat."""
-    stack = cycle.beat.loads_along.stack._replace(**changes)
+    stack = cycle.beat.loads_along.stack
+    stack = stack._replace(right=stack.right._replace(**changes))
     changed = copy.copy(cycle)
     along = LoadsAlong(stack, cycle.model.airframe)
     changed.__dict__["beat"] = replace(cycle.beat, loads_along=along)
@@ -66,7 +67,7 @@ def test_numbers_of_the_reference_flight(rigid_cycle):
 def test_both_angles_by_time_and_element(rigid_cycle):
     data = assess_validity(rigid_cycle).data
     assert data.angle_of_attack.dims == ("time", "element")
-    loads = rigid_cycle.beat.loads[7]
+    loads = rigid_cycle.beat.loads[7].right
     np.testing.assert_array_equal(data.angle_of_attack[7], loads.angle_of_attack)
     # The effective angle is what makes the lift of a section 2 pi alpha of its own wind.
     lift = loads.circulation * loads.speed
@@ -85,7 +86,7 @@ def test_warning_names_where_and_when(rigid_cycle, k, e, angle):
     assert excess.element == e
     assert excess.time == rigid_cycle.beat.times[k]
     assert excess.phase == pytest.approx(k / 60)
-    position = rigid_cycle.beat.loads[k].position
+    position = rigid_cycle.beat.loads[k].right.position
     along = position[0, 1] + np.linalg.norm(np.diff(position[: e + 1], axis=0), axis=1).sum()
     assert excess.span_position == pytest.approx(along)
     assert 0 < excess.share < 0.01
@@ -113,7 +114,7 @@ def test_just_within_the_limit_is_silent(rigid_cycle):
 
 def test_geometric_angle_alone_does_not_warn(rigid_cycle):
     """The section meets the wind after the downwash."""
-    geometric = rigid_cycle.beat.loads_along.stack.angle_of_attack.copy()
+    geometric = rigid_cycle.beat.loads_along.stack.right.angle_of_attack.copy()
     geometric[11] += 0.5
     changed = with_loads(rigid_cycle, angle_of_attack=geometric)
     assert assess_validity(changed).warnings == ()

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from birdmb.aerodynamics.circulation import element_loads
 from birdmb.aerodynamics.elements import place_elements
 from birdmb.aerodynamics.joints import hinge_torques
 from birdmb.aerodynamics.prescribed import driver_motion
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.edges import feather_ends, skeleton, wing_edges
 from birdmb.wing.shape import wing_shape
+from tests.aerodynamics.pairs import element_loads
 
 HINGE = {"stiffness": 2.0, "damping": 0.002, "mass": 1e-3}
 BOTH = {"feathers.5.hinge": HINGE | {"rest": 0.05}, "feathers.3.hinge": HINGE}

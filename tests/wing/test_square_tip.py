@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from birdmb.aerodynamics.circulation import element_loads, resultant
 from birdmb.aerodynamics.elements import place_elements
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.edges import wing_edges
@@ -11,6 +10,7 @@ from birdmb.wing.line import orthogonal_line
 from birdmb.wing.line_ends import line_ends
 from birdmb.wing.rounded import rounded_polyline
 from birdmb.wing.shape import wing_shape
+from tests.aerodynamics.pairs import element_loads, resultant
 from tests.aerodynamics.test_circulation import ALPHA, DENSITY, SPEED, wind
 
 STILL = np.zeros(6)

@@ -1,0 +1,144 @@
+"""Two wings in each other's wake: their circulations and the loads on their elements.
+
+The left wing is mirrored onto the right side. Where both do the same at all times the pair is
+`mirrored`: one wing tells of both, and one system of N unknowns holds its circulations. Else the
+system holds those of the right wing, then those of the left one, 2 N in all.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from birdmb._kernels import kernel
+from birdmb._typing import FloatArray
+from birdmb.aerodynamics.elements import (
+    Elements,
+    add_vortex,
+    circulation_system,
+    downwash_share,
+)
+from birdmb.aerodynamics.twist_loads import Flow, element_forces, mirrored, wing_flow
+
+
+class PairSystem(NamedTuple):
+    """What the circulations of M elements obey, and the velocities that they induce at them."""
+
+    matrix: FloatArray  # (M, M), times the circulations it is pi c |U| alpha
+    induced_y: FloatArray  # (M, M) 1/m
+    induced_z: FloatArray  # (M, M) 1/m
+
+
+class ElementLoads(NamedTuple):
+    """Loads of the N elements of a right wing, or of a left one mirrored onto the right side."""
+
+    circulation: FloatArray  # (N,) m2/s
+    angle_of_attack: FloatArray  # (N,) rad, geometric (before the downwash)
+    speed: FloatArray  # (N,) m/s in the section's plane
+    force: FloatArray  # (N, 3) N, profile drag included
+    profile_drag: FloatArray  # (N, 3) N
+
+
+@kernel
+def pair_system(right: Elements, left: Elements, is_mirrored: bool) -> PairSystem:
+    """The linear system of a pair's circulations."""
+    if is_mirrored:
+        return PairSystem(circulation_system(right), right.induced_y, right.induced_z)
+    n = right.chord.size
+    matrix = np.eye(2 * n)
+    induced_y, induced_z = np.zeros((2 * n, 2 * n)), np.zeros((2 * n, 2 * n))
+    for row in range(2):
+        at = right if row == 0 else left
+        rows = slice(row * n, (row + 1) * n)
+        for column in range(2):
+            source = right if column == 0 else left
+            side = 1.0 if row == column else -1.0
+            y, z = np.zeros((n, n)), np.zeros((n, n))
+            for k in range(n + 1):
+                add_vortex(at.position, source.node, k, side, 1.0, y, z)
+            columns = slice(column * n, (column + 1) * n)
+            induced_y[rows, columns], induced_z[rows, columns] = y, z
+            matrix[rows, columns] += downwash_share(at, y, z)
+    return PairSystem(matrix, induced_y, induced_z)
+
+
+@kernel
+def circulations(system: PairSystem, bound: FloatArray) -> FloatArray:
+    """Circulations (M, R) m2/s of those without downwash (M, R); NaN where they overflow."""
+    found = np.full(bound.shape, np.nan)
+    # The solver refuses what is not finite; a flow that diverges is told by whoever follows it.
+    if np.isfinite(np.sum(system.matrix)) and np.isfinite(np.sum(bound)):
+        found = np.ascontiguousarray(np.linalg.solve(system.matrix, bound))
+    return found
+
+
+@kernel
+def pair_loads(
+    right: Elements,
+    left: Elements,
+    is_mirrored: bool,
+    density: float,
+    profile: float,
+    twist: FloatArray,
+) -> tuple[ElementLoads, ElementLoads]:
+    """Loads of the right wing and of the left one, of a body that moves with a `twist` (6,).
+
+    `density` (kg/m3) is the air's, `profile` the drag coefficient of the sections. A mirrored pair
+    has the same loads on both sides; v, p and r of the twist must then be zero.
+    """
+    n = right.chord.size
+    system = pair_system(right, left, is_mirrored)
+    no_derivatives = np.empty(0, np.int64)
+    flow = wing_flow(right, twist, no_derivatives)
+    flow_left = flow if is_mirrored else wing_flow(left, mirrored(twist), no_derivatives)
+    bound = flow.bound if is_mirrored else np.concatenate((flow.bound, flow_left.bound))
+    gamma = circulations(system, bound)
+    y, z = system.induced_y @ gamma, system.induced_z @ gamma
+    of_right = _loads(right, flow, gamma[:n], y[:n], z[:n], density, profile)
+    if is_mirrored:
+        return of_right, of_right
+    return of_right, _loads(left, flow_left, gamma[n:], y[n:], z[n:], density, profile)
+
+
+@kernel
+def _loads(
+    elements: Elements,
+    flow: Flow,
+    gamma: FloatArray,
+    induced_y: FloatArray,
+    induced_z: FloatArray,
+    density: float,
+    profile: float,
+) -> ElementLoads:
+    wind = flow.wind
+    lift = element_forces(elements, wind, gamma, induced_y, induced_z, density, 0.0)
+    force = lift
+    if profile > 0.0:
+        force = element_forces(elements, wind, gamma, induced_y, induced_z, density, profile)
+    drag = (force - lift)[:, :, 0].copy()
+    return ElementLoads(
+        gamma[:, 0].copy(), flow.angle_of_attack, flow.speed, force[:, :, 0].copy(), drag
+    )
+
+
+@kernel
+def pair_wrench(
+    right: Elements, right_force: FloatArray, left: Elements, left_force: FloatArray
+) -> FloatArray:
+    """Wrench (6,) N, N m about G of forces (N, 3) on both wings' elements, the left one's mirrored.
+
+    In body axes.
+    """
+    total = np.zeros(6)
+    for e in range(right_force.shape[0]):
+        for side in (1.0, -1.0):
+            x, y, z = right.position[e] if side > 0.0 else left.position[e]
+            fx, fy, fz = right_force[e] if side > 0.0 else left_force[e]
+            total[0] += fx
+            total[1] += side * fy
+            total[2] += fz
+            total[3] += side * (y * fz - z * fy)
+            total[4] += z * fx - x * fz
+            total[5] += side * (x * fy - y * fx)
+    return total
