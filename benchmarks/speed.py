@@ -11,14 +11,15 @@ from pathlib import Path
 from typing import Literal
 
 import numpy as np
-from birdmb.models.multibody_kernel import air_forces
 from rich.console import Console
 from rich.table import Table
 
 import birdmb
 from birdmb.aerodynamics.prescribed import prescribed_wing, symmetric_loads
-from birdmb.models.exudyn_tree import BODY_COORDINATES, ExudynBird
+from birdmb.models.exudyn_tree import ExudynBird
+from birdmb.models.rates_kernel import Motion, air_forces
 from birdmb.models.springs import spring_torques, springs_of
+from birdmb.models.tree_coordinates import IN_PLANE
 
 TOPOLOGIES = Path(__file__).parent.parent / "topologies"
 
@@ -55,14 +56,15 @@ def load_evaluations(prescribed: birdmb.Bird, compliant: birdmb.Bird) -> tuple[f
     fixed = best(lambda: symmetric_loads(table, 0, frame, twist, planar), inner=2000)
 
     model = birdmb.MultibodyModel(compliant)
-    angles, rates = model.joint_motion(0.01, model.driven_state(0.01))
-    shape = model.instant(0.01).shape
-    free = best(
-        lambda: air_forces(
-            model.wing, shape, model.rigid_joint_count, angles, rates, frame, 0.1, 18.0, 1.0, 0.1
-        ),
-        inner=2000,
-    )
+    tree, times, x = model.tree, np.array([0.01]), model.driven_state(0.01)
+    q, v = model.coordinates(0.01, x)
+    drivers, instants = tree.drivers_at(times)
+    joints = slice(IN_PLANE.size, IN_PLANE.size + drivers.angles.shape[1])
+    angles, rates = q[None, joints], v[None, joints]
+    motion = Motion(twist[None], np.zeros((1, 3)), angles, rates)
+    row = np.zeros(1, np.int64)
+    shapes = tree.shapes_at(instants, times, row, angles, rates)
+    free = best(lambda: air_forces(tree.constants, shapes, motion, row), inner=2000)
     return fixed, free
 
 
@@ -87,16 +89,20 @@ def integrations(bird: birdmb.Bird) -> tuple[float, float, int]:
     model = birdmb.MultibodyModel(bird)
     x0, steps, calls = model.initial_guess(), model.steps_per_beat, 0
     springs = springs_of(bird)
-    joints = slice(BODY_COORDINATES, BODY_COORDINATES + springs.damping.size)
+    joints = slice(IN_PLANE.size, IN_PLANE.size + springs.damping.size)
 
     def springs_alone(t: float, q: np.ndarray, v: np.ndarray) -> np.ndarray:
         nonlocal calls
         calls += 1
-        driver = model.instant(t)
-        torques = spring_torques(springs, q[joints] - driver.angles, v[joints] - driver.rates)
-        return np.concatenate([np.zeros(BODY_COORDINATES), torques, torques])
+        drivers, _ = model.tree.drivers_at(np.array([t]))
+        torques = spring_torques(
+            springs, q[joints] - drivers.angles[0], v[joints] - drivers.rates[0]
+        )
+        return np.concatenate([np.zeros(IN_PLANE.size), torques, torques])
 
-    bare = ExudynBird(bird, springs_alone, model.prescribed, model.driver_accelerations)
+    bare = ExudynBird(
+        bird, IN_PLANE, springs_alone, model.prescribed, model.tree.driver_accelerations
+    )
     q, v = model.coordinates(0.0, x0)
     bare.integrate(q, v, 0.0, bird.period, steps)
     evaluations, calls = calls, 0

@@ -12,7 +12,8 @@ from rich.table import Table
 
 import birdmb
 from birdmb.aerodynamics.elements import place_elements
-from birdmb.aerodynamics.pair import pair_loads, pair_wrench
+from birdmb.aerodynamics.pair import pair_loads
+from birdmb.aerodynamics.twist_loads import wing_wrench
 from birdmb.wing.arrays import WingArrays, wing_arrays
 from birdmb.wing.shape import wing_shape
 
@@ -52,7 +53,7 @@ def lift(wing: WingArrays, elements: int) -> str:
     placed = place_elements(shape, wing.root)
     twist = np.array([SPEED * np.cos(ALPHA), 0.0, SPEED * np.sin(ALPHA), 0.0, 0.0, 0.0])
     force = pair_loads(placed, placed, True, DENSITY, 0.0, twist)[0].force
-    wrench = pair_wrench(placed, force, placed, force)
+    wrench = 2.0 * wing_wrench(placed.position, force[:, :, None])[:, 0]
     return f"{wrench[0] * np.sin(ALPHA) - wrench[2] * np.cos(ALPHA):.4f}"
 
 

@@ -60,7 +60,8 @@ class ProgramTail(birdmb.RigidModel):
         u, w, q, theta = x
         frame, body = self._constants
         twist, no_derivatives = np.array([u, 0.0, w, 0.0, q, 0.0]), np.empty(0, int)
-        flow = wing_flow(at_phase(table.elements, k), twist, no_derivatives)
+        elements = at_phase(table.elements, k)
+        flow = wing_flow(elements, elements.velocity, twist, no_derivatives)
         induced = influence @ table.inverse[k] @ flow.bound[:, 0]
         surface, turning = self._surface, -q if self.wrong_rate else q
         wind = np.array(
@@ -81,7 +82,7 @@ class ProgramTail(birdmb.RigidModel):
 
     def _integrate(self, x0: Any, t0: float, t1: float) -> tuple[Any, Any, Any]:
         steps = self._steps(t0, t1)
-        table = self._table(t0 % self.bird.period, t1 - t0, steps).wing
+        table = self._table(t0 % self.bird.period, t1 - t0, steps).right
         influences = [self._influence(node) for node in table.elements.node]
         h, start = (t1 - t0) / steps, np.asarray(x0, dtype=float)
 

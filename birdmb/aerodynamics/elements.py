@@ -104,47 +104,52 @@ def wake_influence(
     induced_y, induced_z = np.zeros((n, n)), np.zeros((n, n))
     # The first node lies on the centre line: where both circulations are equal it sheds none.
     first = 1 if parity > 0.0 else 0
-    for k in range(first, n + 1):
-        add_vortex(position, node, k, 1.0, 1.0, induced_y, induced_z)
-        add_vortex(position, node, k, -1.0, parity, induced_y, induced_z)
+    add_wake(position, node, first, 1.0, parity, induced_y, induced_z)
     return induced_y, induced_z
 
 
 @kernel
-def add_vortex(
+def add_wake(
     position: FloatArray,
     node: FloatArray,
-    k: int,
-    side: float,
-    parity: float,
+    first: int,
+    own: float,
+    image: float,
     induced_y: FloatArray,
     induced_z: FloatArray,
 ) -> None:
-    """Add what the vortex from one node of a wing induces at `position` (N, 3) m on a right wing.
+    """Add what the wake of a right wing and of its mirror image induce on a right wing.
 
-    To velocities along y and z, each (N, N) 1/m, by the circulation of each of that wing's
-    elements, times a `parity`. The `side` is 1 for a right wing, -1 for the left one whose mirror
-    image has its k-th node at `node` (N + 1, 3) m. A filament of strength G at distance r in the
-    plane across its axis induces G/(4 pi r); the bound vortices' influence on each other is
-    neglected, as published.
+    To velocities along y and z, each (N, N) 1/m, at `position` (N, 3) m by the circulation of each
+    element between the nodes (N + 1, 3) m, those before the `first` shedding none. The wing has
+    that circulation times `own`, the left wing that is its mirror image times `image`.
+
+    A filament of strength G at distance r in the plane across its axis induces G/(4 pi r); the
+    bound vortices' influence on each other is neglected, as published.
     """
     n = position.shape[0]
     for i in range(n):
-        ry, rz = position[i, 1] - side * node[k, 1], position[i, 2] - node[k, 2]
-        square = ry * ry + rz * rz
-        # On a filament itself, where the line runs along the stream: see `clearance`. That of the
-        # centre line moves no air at itself.
-        strength = 0.0 if k == 0 else np.nan
-        if square > 0.0:
-            strength = side * parity * 0.25 / (np.pi * square)
-        vy, vz = rz * strength, -ry * strength
-        # Node k sheds the circulation inboard of it minus the one outboard of it.
-        if k < n:
-            induced_y[i, k] -= vy
-            induced_z[i, k] -= vz
-        if k > 0:
-            induced_y[i, k - 1] += vy
-            induced_z[i, k - 1] += vz
+        for k in range(first, n + 1):
+            rz = position[i, 2] - node[k, 2]
+            ry = position[i, 1] - node[k, 1]
+            ry_mirror = position[i, 1] + node[k, 1]
+            square = ry * ry + rz * rz
+            square_mirror = ry_mirror * ry_mirror + rz * rz
+            # On a filament itself, where the line runs along the stream: see `clearance`. That of
+            # the centre line moves no air at itself.
+            itself = 0.0 if k == 0 else np.nan
+            near = own * 0.25 / (np.pi * square) if square > 0.0 else own * itself
+            far = image * 0.25 / (np.pi * square_mirror) if square_mirror > 0.0 else image * itself
+            # Per unit strength backwards, that of the left wing's image being opposite if even.
+            vy = rz * (near - far)
+            vz = ry_mirror * far - ry * near
+            # Node k sheds the circulation inboard of it minus the one outboard of it.
+            if k < n:
+                induced_y[i, k] -= vy
+                induced_z[i, k] -= vz
+            if k > 0:
+                induced_y[i, k - 1] += vy
+                induced_z[i, k - 1] += vz
 
 
 @kernel

@@ -15,7 +15,7 @@ from birdmb._kernels import kernel
 from birdmb._typing import FloatArray
 from birdmb.aerodynamics.elements import (
     Elements,
-    add_vortex,
+    add_wake,
     circulation_system,
     downwash_share,
 )
@@ -53,10 +53,9 @@ def pair_system(right: Elements, left: Elements, is_mirrored: bool) -> PairSyste
         rows = slice(row * n, (row + 1) * n)
         for column in range(2):
             source = right if column == 0 else left
-            side = 1.0 if row == column else -1.0
+            own = 1.0 if row == column else 0.0
             y, z = np.zeros((n, n)), np.zeros((n, n))
-            for k in range(n + 1):
-                add_vortex(at.position, source.node, k, side, 1.0, y, z)
+            add_wake(at.position, source.node, 0, own, 1.0 - own, y, z)
             columns = slice(column * n, (column + 1) * n)
             induced_y[rows, columns], induced_z[rows, columns] = y, z
             matrix[rows, columns] += downwash_share(at, y, z)
@@ -90,8 +89,10 @@ def pair_loads(
     n = right.chord.size
     system = pair_system(right, left, is_mirrored)
     no_derivatives = np.empty(0, np.int64)
-    flow = wing_flow(right, twist, no_derivatives)
-    flow_left = flow if is_mirrored else wing_flow(left, mirrored(twist), no_derivatives)
+    flow = wing_flow(right, right.velocity, twist, no_derivatives)
+    flow_left = flow
+    if not is_mirrored:
+        flow_left = wing_flow(left, left.velocity, mirrored(twist), no_derivatives)
     bound = flow.bound if is_mirrored else np.concatenate((flow.bound, flow_left.bound))
     gamma = circulations(system, bound)
     y, z = system.induced_y @ gamma, system.induced_z @ gamma
@@ -123,22 +124,9 @@ def _loads(
 
 
 @kernel
-def pair_wrench(
-    right: Elements, right_force: FloatArray, left: Elements, left_force: FloatArray
-) -> FloatArray:
-    """Wrench (6,) N, N m about G of forces (N, 3) on both wings' elements, the left one's mirrored.
-
-    In body axes.
-    """
-    total = np.zeros(6)
-    for e in range(right_force.shape[0]):
-        for side in (1.0, -1.0):
-            x, y, z = right.position[e] if side > 0.0 else left.position[e]
-            fx, fy, fz = right_force[e] if side > 0.0 else left_force[e]
-            total[0] += fx
-            total[1] += side * fy
-            total[2] += fz
-            total[3] += side * (y * fz - z * fy)
-            total[4] += z * fx - x * fz
-            total[5] += side * (x * fy - y * fx)
+def pair_wrench(of_right: FloatArray, of_left: FloatArray) -> FloatArray:
+    """Wrench (6, 1 + d) of both wings, that of the left one given mirrored."""
+    total = of_right + of_left
+    for component in (1, 3, 5):
+        total[component] = of_right[component] - of_left[component]
     return total

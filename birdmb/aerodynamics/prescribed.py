@@ -23,11 +23,10 @@ from birdmb.aerodynamics.elements import (
     system_of,
     wake_influence,
 )
-from birdmb.aerodynamics.pair import pair_system
+from birdmb.aerodynamics.pair import pair_system, pair_wrench
 from birdmb.aerodynamics.tail import TailSurface, tail_influence
 from birdmb.aerodynamics.twist_loads import (
     element_forces,
-    mirror_sign,
     mirrored_flow,
     wing_flow,
     wing_wrench,
@@ -197,7 +196,7 @@ def symmetric_loads(
     Of its `twist` (6,) v, p and r are zero, and none of them is among the `directions`.
     """
     elements = at_phase(wing.elements, k)
-    flow = wing_flow(elements, twist, directions)
+    flow = wing_flow(elements, elements.velocity, twist, directions)
     circulation = wing.inverse[k] @ flow.bound
     forces = element_forces(
         elements,
@@ -208,9 +207,8 @@ def symmetric_loads(
         frame.density,
         frame.profile,
     )
-    total = 2.0 * wing_wrench(elements, forces)
-    for component in (1, 3, 5):  # of the other wing opposite
-        total[component] = 0.0
+    wrench = wing_wrench(elements.position, forces)
+    total = pair_wrench(wrench, wrench)
     return total + airframe_loads(frame, wing.at_tail[k] @ circulation, twist, directions)
 
 
@@ -230,7 +228,7 @@ def free_loads(
     """
     elements, image = at_phase(right.elements, k), at_phase(left.elements, k)
     n = elements.chord.size
-    flow = wing_flow(elements, twist, directions)
+    flow = wing_flow(elements, elements.velocity, twist, directions)
     flow_left = mirrored_flow(image, twist, directions)
     y, z = np.empty((2 * n, directions.size + 1)), np.empty((2 * n, directions.size + 1))
     gamma = np.empty((2 * n, directions.size + 1))
@@ -247,11 +245,10 @@ def free_loads(
         y[:], z[:] = wakes.induced_y[k] @ gamma, wakes.induced_z[k] @ gamma
     density, profile = frame.density, frame.profile
     forces = element_forces(elements, flow.wind, gamma[:n], y[:n], z[:n], density, profile)
-    total = wing_wrench(elements, forces)
+    of_right = wing_wrench(elements.position, forces)
     forces = element_forces(image, flow_left.wind, gamma[n:], y[n:], z[n:], density, profile)
-    of_left = wing_wrench(image, forces)
-    for component in range(6):
-        total[component] += mirror_sign(component) * of_left[component]
+    of_left = wing_wrench(image.position, forces)
+    total = pair_wrench(of_right, of_left)
     # In the plane of symmetry each wing induces half of what a pair of them would.
     induced = 0.5 * (right.at_tail[k] @ gamma[:n] + left.at_tail[k] @ gamma[n:])
     return total + airframe_loads(frame, induced, twist, directions)

@@ -54,8 +54,13 @@ def mirrored(vector: FloatArray) -> FloatArray:
 
 
 @kernel
-def wing_flow(elements: Elements, twist: FloatArray, directions: IntArray) -> Flow:
-    """Wind and circulation without downwash of the elements of the right wing."""
+def wing_flow(
+    elements: Elements, velocity: FloatArray, twist: FloatArray, directions: IntArray
+) -> Flow:
+    """Wind and circulation without downwash of the elements of the right wing.
+
+    They move at `velocity` (N, 3) m/s relative to the body.
+    """
     n, columns = elements.chord.size, directions.size + 1
     wind, bound = np.empty((n, 3, columns)), np.empty((n, columns))
     speed, alpha = np.empty(n), np.empty(n)
@@ -64,32 +69,41 @@ def wing_flow(elements: Elements, twist: FloatArray, directions: IntArray) -> Fl
     units[0] = twist
     for m in range(directions.size):
         units[m + 1, directions[m]] = 1.0
+    # Numbers instead of views of the arrays' rows: making these would take half of the time.
+    chord_direction, normal, span = (
+        elements.chord_direction,
+        elements.normal,
+        elements.span_direction,
+    )
+    position, chord = elements.position, elements.chord
     for e in range(n):
-        air, moving = wind[e], elements.velocity[e]
-        x, y, z = elements.position[e, 0], elements.position[e, 1], elements.position[e, 2]
+        x, y, z = position[e, 0], position[e, 1], position[e, 2]
+        cx, cy, cz = chord_direction[e, 0], chord_direction[e, 1], chord_direction[e, 2]
+        nx, ny, nz = normal[e, 0], normal[e, 1], normal[e, 2]
+        tx, ty, tz = span[e, 0], span[e, 1], span[e, 2]
         for m in range(columns):
-            air[0, m] = -units[m, 0] - units[m, 4] * z + units[m, 5] * y
-            air[1, m] = -units[m, 1] - units[m, 5] * x + units[m, 3] * z
-            air[2, m] = -units[m, 2] - units[m, 3] * y + units[m, 4] * x
+            wind[e, 0, m] = -units[m, 0] - units[m, 4] * z + units[m, 5] * y
+            wind[e, 1, m] = -units[m, 1] - units[m, 5] * x + units[m, 3] * z
+            wind[e, 2, m] = -units[m, 2] - units[m, 3] * y + units[m, 4] * x
         for i in range(3):
-            air[i, 0] -= moving[i]
-        c, up, t = elements.chord_direction[e], elements.normal[e], elements.span_direction[e]
-        along = air[0, 0] * t[0] + air[1, 0] * t[1] + air[2, 0] * t[2]
-        px, py, pz = air[0, 0] - along * t[0], air[1, 0] - along * t[1], air[2, 0] - along * t[2]
-        rising = px * up[0] + py * up[1] + pz * up[2]
-        back = px * c[0] + py * c[1] + pz * c[2]
+            wind[e, i, 0] -= velocity[e, i]
+        ax, ay, az = wind[e, 0, 0], wind[e, 1, 0], wind[e, 2, 0]
+        along = ax * tx + ay * ty + az * tz
+        px, py, pz = ax - along * tx, ay - along * ty, az - along * tz
+        rising = px * nx + py * ny + pz * nz
+        back = px * cx + py * cy + pz * cz
         speed[e] = np.sqrt(px * px + py * py + pz * pz)
         alpha[e] = np.arctan2(rising, back)
-        factor = np.pi * elements.chord[e]
+        factor = np.pi * chord[e]
         bound[e, 0] = factor * speed[e] * alpha[e]
         square = rising * rising + back * back
         for m in range(1, columns):
-            dx, dy, dz = air[0, m], air[1, m], air[2, m]
-            d_along = dx * t[0] + dy * t[1] + dz * t[2]
-            gx, gy, gz = dx - d_along * t[0], dy - d_along * t[1], dz - d_along * t[2]
+            dx, dy, dz = wind[e, 0, m], wind[e, 1, m], wind[e, 2, m]
+            d_along = dx * tx + dy * ty + dz * tz
+            gx, gy, gz = dx - d_along * tx, dy - d_along * ty, dz - d_along * tz
             d_speed = (px * gx + py * gy + pz * gz) / speed[e]
-            d_rising = gx * up[0] + gy * up[1] + gz * up[2]
-            d_back = gx * c[0] + gy * c[1] + gz * c[2]
+            d_rising = gx * nx + gy * ny + gz * nz
+            d_back = gx * cx + gy * cy + gz * cz
             d_alpha = (back * d_rising - rising * d_back) / square
             bound[e, m] = factor * (d_speed * alpha[e] + speed[e] * d_alpha)
     return Flow(wind, speed, alpha, bound)
@@ -98,7 +112,7 @@ def wing_flow(elements: Elements, twist: FloatArray, directions: IntArray) -> Fl
 @kernel
 def mirrored_flow(elements: Elements, twist: FloatArray, directions: IntArray) -> Flow:
     """What the left wing meets, mirrored onto the right one; derivatives by the twist itself."""
-    flow = wing_flow(elements, mirrored(twist), directions)
+    flow = wing_flow(elements, elements.velocity, mirrored(twist), directions)
     for m in range(directions.size):
         sign = mirror_sign(directions[m])
         flow.wind[:, :, m + 1] *= sign
@@ -124,41 +138,41 @@ def element_forces(
     """
     n, columns = circulation.shape
     forces = np.empty((n, 3, columns))
+    span, width, chord = elements.span_direction, elements.width, elements.chord
     for e in range(n):
-        air, t, force = wind[e], elements.span_direction[e], forces[e]
+        tx, ty, tz = span[e, 0], span[e, 1], span[e, 2]
         gamma = circulation[e, 0]
-        ax, ay, az = air[0, 0], air[1, 0], air[2, 0]
+        ax, ay, az = wind[e, 0, 0], wind[e, 1, 0], wind[e, 2, 0]
         y, z = ay + induced_y[e, 0], az + induced_z[e, 0]
-        scale = density * elements.width[e]
+        scale = density * width[e]
         relative = np.sqrt(ax * ax + ay * ay + az * az)
-        drag = 0.5 * profile * elements.chord[e]
-        force[0, 0] = scale * (gamma * (y * t[2] - z * t[1]) + drag * relative * ax)
-        force[1, 0] = scale * (gamma * (z * t[0] - ax * t[2]) + drag * relative * ay)
-        force[2, 0] = scale * (gamma * (ax * t[1] - y * t[0]) + drag * relative * az)
+        drag = 0.5 * profile * chord[e]
+        forces[e, 0, 0] = scale * (gamma * (y * tz - z * ty) + drag * relative * ax)
+        forces[e, 1, 0] = scale * (gamma * (z * tx - ax * tz) + drag * relative * ay)
+        forces[e, 2, 0] = scale * (gamma * (ax * ty - y * tx) + drag * relative * az)
         for m in range(1, columns):
-            wx, wy, wz = air[0, m], air[1, m], air[2, m]
+            wx, wy, wz = wind[e, 0, m], wind[e, 1, m], wind[e, 2, m]
             dy, dz = wy + induced_y[e, m], wz + induced_z[e, m]
             g = circulation[e, m]
-            fx = g * (y * t[2] - z * t[1]) + gamma * (dy * t[2] - dz * t[1])
-            fy = g * (z * t[0] - ax * t[2]) + gamma * (dz * t[0] - wx * t[2])
-            fz = g * (ax * t[1] - y * t[0]) + gamma * (wx * t[1] - dy * t[0])
+            fx = g * (y * tz - z * ty) + gamma * (dy * tz - dz * ty)
+            fy = g * (z * tx - ax * tz) + gamma * (dz * tx - wx * tz)
+            fz = g * (ax * ty - y * tx) + gamma * (wx * ty - dy * tx)
             slope = (ax * wx + ay * wy + az * wz) / relative
-            force[0, m] = scale * (fx + drag * (slope * ax + relative * wx))
-            force[1, m] = scale * (fy + drag * (slope * ay + relative * wy))
-            force[2, m] = scale * (fz + drag * (slope * az + relative * wz))
+            forces[e, 0, m] = scale * (fx + drag * (slope * ax + relative * wx))
+            forces[e, 1, m] = scale * (fy + drag * (slope * ay + relative * wy))
+            forces[e, 2, m] = scale * (fz + drag * (slope * az + relative * wz))
     return forces
 
 
 @kernel
-def wing_wrench(elements: Elements, forces: FloatArray) -> FloatArray:
-    """Wrench (6, 1 + d) about G of `forces` (N, 3, 1 + d) N on the elements of one wing."""
+def wing_wrench(position: FloatArray, forces: FloatArray) -> FloatArray:
+    """Wrench (6, 1 + d) about G of `forces` (N, 3, 1 + d) N at `position` (N, 3) m of one wing."""
     n, _, columns = forces.shape
     total = np.zeros((6, columns))
     for e in range(n):
-        x, y, z = elements.position[e, 0], elements.position[e, 1], elements.position[e, 2]
-        force = forces[e]
+        x, y, z = position[e, 0], position[e, 1], position[e, 2]
         for m in range(columns):
-            fx, fy, fz = force[0, m], force[1, m], force[2, m]
+            fx, fy, fz = forces[e, 0, m], forces[e, 1, m], forces[e, 2, m]
             total[0, m] += fx
             total[1, m] += fy
             total[2, m] += fz

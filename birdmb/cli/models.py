@@ -6,7 +6,6 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any, TypeAlias
 
-from birdmb.cli.outcome import InputError
 from birdmb.models import MultibodyModel, RigidModel
 from birdmb.models.motion import MotionName
 from birdmb.topology import Bird
@@ -24,18 +23,9 @@ def model_class(name: str) -> ModelClass:
 def bound_model(
     name: str, motion: MotionName, steps_per_beat: int | None
 ) -> Callable[[Bird], RigidModel | MultibodyModel]:
-    """What makes the models that the options --model, --motion and --steps-per-beat name.
-
-    Raises:
-        InputError: the model has no such motion.
-    """
+    """What makes the models that the options --model, --motion and --steps-per-beat name."""
     options: dict[str, Any] = {}
     if motion != "planar":
-        if name != "rigid":
-            raise InputError(
-                f"--motion {motion} is of the rigid model: the multibody one flies in its plane of "
-                "symmetry alone. Add --model rigid."
-            )
         options["motion"] = motion
     if steps_per_beat is not None:
         options["steps_per_beat"] = steps_per_beat

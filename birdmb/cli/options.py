@@ -78,8 +78,8 @@ MotionOption = Annotated[
     typer.Option(
         "--motion",
         metavar="MOTION",
-        help="planar: symmetric longitudinal flight. free: in space, with lateral modes; the "
-        "rigid model's.",
+        help="planar: symmetric longitudinal flight. free: in space, with lateral modes, each "
+        "wing by itself.",
     ),
 ]
 Segments = Annotated[

@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.models.motion import Motion
+from birdmb.models.motion import Mirror, Motion
 from birdmb.orbits import LimitCycle
 
 Plane = Literal["longitudinal", "lateral", "coupled"]
@@ -41,10 +41,12 @@ class FlightMode:
     participation: dict[str, float]
 
 
-def flight_modes(cycle: LimitCycle, motion: Motion) -> tuple[FlightMode, ...]:
+def flight_modes(cycle: LimitCycle, motion: Motion, mirror: Mirror) -> tuple[FlightMode, ...]:
     """The modes of a limit cycle, in the order of its multipliers.
 
-    The first states of the cycle are those of the body in `motion`. Lateral modes: of complex pairs
+    The first states of the cycle are those of the body in `motion`; `mirror` makes a state its
+    mirror image. What a mode shares with its mirror image is longitudinal, what changes sign is
+    lateral. Lateral modes: of complex pairs
     the one that oscillates fastest is the Dutch roll, another one the lateral phugoid; of two real
     multipliers the smaller one is the roll mode, the larger one the spiral mode. Longitudinal
     modes: of complex pairs the one in which speed and pitch angle have the larger share is the
@@ -52,7 +54,7 @@ def flight_modes(cycle: LimitCycle, motion: Motion) -> tuple[FlightMode, ...]:
     ones have no names.
     """
     shares, count = cycle.participation, len(motion.states)
-    lateral = shares[:count][motion.lateral].sum(axis=0)
+    lateral = _lateral_shares(cycle, mirror)
     planes = [_plane(float(share)) for share in lateral]
     of_body = shares[:count].sum(axis=0) > _OF_THE_BODY
     names = [""] * len(planes)
@@ -71,6 +73,15 @@ def flight_modes(cycle: LimitCycle, motion: Motion) -> tuple[FlightMode, ...]:
         )
         for k in range(len(planes))
     )
+
+
+def _lateral_shares(cycle: LimitCycle, mirror: Mirror) -> FloatArray:
+    """Part (n,) of each mode that changes sign in the mirror, by participation."""
+    image = np.eye(len(cycle.state_names))[mirror.order] * mirror.signs[:, None]
+    # Its eigenvectors are the sums and the differences of what it exchanges.
+    values, vectors = np.linalg.eigh(image)
+    share = np.abs((vectors.T @ cycle.left_modes) * (vectors.T @ cycle.modes))
+    return np.asarray(share[values < 0.0].sum(axis=0) / share.sum(axis=0))
 
 
 def _plane(lateral: float) -> Plane:

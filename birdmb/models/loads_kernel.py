@@ -10,10 +10,12 @@ from birdmb._kernels import kernel
 from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.airframe import Airframe, body_loads, tail_wind
 from birdmb.aerodynamics.elements import clearance
+from birdmb.aerodynamics.joints import torques
 from birdmb.aerodynamics.pair import ElementLoads, pair_loads, pair_wrench
 from birdmb.aerodynamics.tail import tail_angle, tail_force, tail_influence
-from birdmb.models.placed_wing import PlacedWing, place_wing, torques_of
-from birdmb.wing.arrays import WingArrays
+from birdmb.aerodynamics.twist_loads import wing_wrench
+from birdmb.models.placed_wing import PlacedWing, place_wing
+from birdmb.wing.arrays import JointArrays
 from birdmb.wing.stacked import StackedShapes, shape_at
 
 
@@ -71,7 +73,7 @@ def _no_wing(count: int, n: int, joints: int) -> StackedWing:
 
 @kernel
 def loads_along(
-    wing: WingArrays,
+    joints: JointArrays,
     shapes: tuple[StackedShapes, StackedShapes],
     shape_of: IntArray,
     rigid_joint_count: int,
@@ -86,7 +88,7 @@ def loads_along(
     an instant, with the first `rigid_joint_count` joints at zero; `angles` and `rates` (K, 2, A)
     are those of joints and hinges, `twists` (K, 6) m/s and rad/s the body's relative to the air.
     """
-    count, _, joints = angles.shape
+    count, _, angle_count = angles.shape
     n = shapes[0].chord.shape[1]
     stack = StackedLoads(
         np.full((count, 3), np.nan),
@@ -96,20 +98,24 @@ def loads_along(
         np.zeros(count),
         np.zeros((count, 3)),
         np.zeros((count, 3)),
-        _no_wing(count, n, joints),
-        _no_wing(count, n, joints),
+        _no_wing(count, n, angle_count),
+        _no_wing(count, n, angle_count),
     )
     tail = frame.tail
     for k in range(count):
         twist = twists[k]
         right = place_wing(
-            wing, shape_at(shapes[0], shape_of[0, k]), rigid_joint_count, angles[k, 0], rates[k, 0]
+            joints,
+            shape_at(shapes[0], shape_of[0, k]),
+            rigid_joint_count,
+            angles[k, 0],
+            rates[k, 0],
         )
         left = right
         alike = np.all(angles[k, 0] == angles[k, 1]) and np.all(rates[k, 0] == rates[k, 1])
         if not alike:
             shape = shape_at(shapes[1], shape_of[1, k])
-            left = place_wing(wing, shape, rigid_joint_count, angles[k, 1], rates[k, 1])
+            left = place_wing(joints, shape, rigid_joint_count, angles[k, 1], rates[k, 1])
         _keep_wing(stack.right, k, right)
         _keep_wing(stack.left, k, left)
         if not (stack.right.clearance[k] >= 0.0 and stack.left.clearance[k] >= 0.0):
@@ -118,8 +124,8 @@ def loads_along(
         of_right, of_left = pair_loads(
             right.elements, left.elements, is_mirrored, frame.density, frame.profile, twist
         )
-        _keep_loads(stack.right, k, of_right, torques_of(wing, right, of_right.force))
-        _keep_loads(stack.left, k, of_left, torques_of(wing, left, of_left.force))
+        _keep_loads(stack.right, k, of_right, torques(right.velocity_per_rate, of_right.force))
+        _keep_loads(stack.left, k, of_left, torques(left.velocity_per_rate, of_left.force))
         of_body = body_loads(frame, twist[:3])[:, 0]
         stack.body_force[k], stack.body_moment[k] = of_body[:3], of_body[3:]
         if tail.span > 0.0:
@@ -132,7 +138,10 @@ def loads_along(
             stack.tail_force[k] = tail_force(tail, frame.density, wind)[:, 0]
             stack.tail_angle[k] = tail_angle(tail, wind[0], wind[2])
             stack.tail_downwash[k] = induced[1]
-        wrench = pair_wrench(right.elements, of_right.force, left.elements, of_left.force)
+        wrench = pair_wrench(
+            wing_wrench(right.elements.position, of_right.force.reshape(n, 3, 1)),
+            wing_wrench(left.elements.position, of_left.force.reshape(n, 3, 1)),
+        )[:, 0]
         fx, fy, fz = stack.tail_force[k]
         stack.force[k] = wrench[:3] + stack.tail_force[k] + stack.body_force[k]
         stack.moment[k] = wrench[3:] + stack.body_moment[k]
@@ -152,7 +161,7 @@ def _keep_wing(stack: StackedWing, k: int, placed: PlacedWing) -> None:
 
 
 @kernel
-def _keep_loads(stack: StackedWing, k: int, loads: ElementLoads, torques: FloatArray) -> None:
+def _keep_loads(stack: StackedWing, k: int, loads: ElementLoads, about_joints: FloatArray) -> None:
     stack.force[k], stack.profile_drag[k] = loads.force, loads.profile_drag
     stack.circulation[k], stack.angle_of_attack[k] = loads.circulation, loads.angle_of_attack
-    stack.speed[k], stack.joint_torques[k] = loads.speed, torques
+    stack.speed[k], stack.joint_torques[k] = loads.speed, about_joints

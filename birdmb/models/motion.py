@@ -28,6 +28,14 @@ _PHI, _THETA = 6, 7
 
 
 @dataclass(frozen=True)
+class Mirror:
+    """The mirror image, in the plane of symmetry, of a state x: `signs * x[order]`."""
+
+    order: IntArray
+    signs: FloatArray
+
+
+@dataclass(frozen=True)
 class Motion:
     """A choice of the body's states in space; the others are zero.
 
@@ -58,6 +66,11 @@ class Motion:
     def scale(self) -> tuple[float, ...]:
         """Typical sizes of the states."""
         return tuple(_SCALE[i] for i in self.indices)
+
+    @cached_property
+    def is_symmetric(self) -> bool:
+        """Whether the body stays in its plane of symmetry."""
+        return not self.lateral.any()
 
     @property
     def lateral(self) -> BoolArray:
@@ -117,8 +130,11 @@ def along_body(space: FloatArray, air: FloatArray) -> FloatArray:
 def gravity_along_body(space: FloatArray, gravity: float) -> FloatArray:
     """Gravitational acceleration (K, 3) m/s2 along the body's axes, of states in space (K, 8)."""
     phi, theta = space[:, [_PHI, _THETA]].T
-    along = [-np.sin(theta), np.sin(phi) * np.cos(theta), np.cos(phi) * np.cos(theta)]
-    return gravity * np.column_stack(along)
+    along = np.empty((len(space), 3))
+    along[:, 0] = -gravity * np.sin(theta)
+    down = gravity * np.cos(theta)
+    along[:, 1], along[:, 2] = down * np.sin(phi), down * np.cos(phi)
+    return along
 
 
 def _heading_in_body(space: FloatArray) -> FloatArray:

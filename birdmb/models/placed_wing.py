@@ -9,8 +9,8 @@ import numpy as np
 from birdmb._kernels import kernel
 from birdmb._typing import FloatArray
 from birdmb.aerodynamics.elements import Elements, place_elements
-from birdmb.aerodynamics.joints import hinge_torques, joint_torques
-from birdmb.wing.arrays import WingArrays
+from birdmb.aerodynamics.joints import velocity_per_joint_rate
+from birdmb.wing.arrays import JointArrays
 from birdmb.wing.chain import Chain, frame_after, joint_chain
 from birdmb.wing.shape import WingShape, turned
 
@@ -20,13 +20,13 @@ class PlacedWing(NamedTuple):
 
     chain: Chain
     axes: FloatArray  # (3, 3) behind the joints that turn the wing as a whole, to body axes
-    shape: WingShape
     elements: Elements
+    velocity_per_rate: FloatArray  # (A, N, 3) m of the elements' loads, per joint's or hinge's rate
 
 
 @kernel
 def place_wing(
-    wing: WingArrays,
+    joints: JointArrays,
     shape: WingShape,
     rigid_joint_count: int,
     angles: FloatArray,
@@ -36,10 +36,17 @@ def place_wing(
 
     `angles` and `rates` (A,) rad, rad/s are those of joints and hinges.
     """
-    chain = joint_chain(wing, angles)
-    axes = frame_after(wing, angles, rigid_joint_count)
+    chain = joint_chain(joints, angles)
+    axes = frame_after(joints, angles, rigid_joint_count)
     placed = turned(shape, axes, spin_of(chain, rigid_joint_count, rates))
-    return PlacedWing(chain, axes, placed, place_elements(placed, wing.root))
+    elements = place_elements(placed, joints.root)
+    per_rate = np.empty((joints.angle_count, elements.chord.size, 3))
+    per_rate[: joints.segment.size] = velocity_per_joint_rate(
+        joints.root, joints.segment, chain, elements.position, placed.distal_fraction
+    )
+    if joints.segment.size < joints.angle_count:
+        per_rate[joints.segment.size :] = placed.hinge_velocity
+    return PlacedWing(chain, axes, elements, per_rate)
 
 
 @kernel
@@ -49,11 +56,3 @@ def spin_of(chain: Chain, rigid_joint_count: int, rates: FloatArray) -> FloatArr
     for j in range(rigid_joint_count):
         spin += rates[j] * chain.axis[j]
     return spin
-
-
-@kernel
-def torques_of(wing: WingArrays, placed: PlacedWing, force: FloatArray) -> FloatArray:
-    """Torques (A,) N m of forces (N, 3) N on the elements about joints and hinges."""
-    position, fraction = placed.elements.position, placed.shape.distal_fraction
-    about_joints = joint_torques(wing, placed.chain, position, force, fraction)
-    return np.concatenate((about_joints, hinge_torques(placed.shape.hinge_velocity, force)))

@@ -13,15 +13,21 @@ import numpy as np
 from birdmb._kernels import kernel
 from birdmb._typing import BoolArray, FloatArray, IntArray
 from birdmb.aerodynamics.airframe import Airframe, airframe_loads
-from birdmb.aerodynamics.elements import Elements, clearance
+from birdmb.aerodynamics.elements import clearance
+from birdmb.aerodynamics.joints import torques_along
 from birdmb.aerodynamics.pair import circulations, pair_system, pair_wrench
 from birdmb.aerodynamics.tail import tail_influence
-from birdmb.aerodynamics.twist_loads import Flow, element_forces, mirrored, wing_flow
-from birdmb.models.placed_wing import PlacedWing, place_wing, spin_of, torques_of
+from birdmb.aerodynamics.twist_loads import (
+    element_forces,
+    mirrored,
+    wing_flow,
+    wing_wrench,
+)
+from birdmb.models.placed_wing import PlacedWing, place_wing, spin_of
 from birdmb.models.row_groups import groups_of
 from birdmb.models.springs import Springs, spring_torques
 from birdmb.models.tree_kernel import TreeLinks, bias_forces, mass_matrix, placed_links
-from birdmb.wing.arrays import WingArrays
+from birdmb.wing.arrays import JointArrays
 from birdmb.wing.stacked import StackedShapes, shape_at, velocity_at
 
 
@@ -32,7 +38,7 @@ class Constants(NamedTuple):
     as mirror images and the right one tells of both, else 2.
     """
 
-    wing: WingArrays
+    joints: JointArrays
     links: TreeLinks
     frame: Airframe
     springs: Springs  # of the C angles
@@ -59,12 +65,10 @@ class Drivers(NamedTuple):
 
 
 class Shapes(NamedTuple):
-    """Shapes of both wings, those with the joints at zero that turn them as a whole."""
+    """Shapes of the S wings, those with the joints at zero that turn them as a whole."""
 
-    right: StackedShapes
-    left: StackedShapes
-    right_of: IntArray  # (K,) which of them is an instant's
-    left_of: IntArray  # (K,)
+    stacks: tuple[StackedShapes, ...]
+    of: IntArray  # (S, K) which of them is an instant's
 
 
 @kernel
@@ -127,49 +131,72 @@ def air_forces(
     body, angles = directions.size, motion.angles[rows[0]]
     loads = np.full((rows.size, body + angles.size), np.nan)
     joints = angles.size if is_mirrored else angles.size // 2
-    right = _at_rest(constants, shapes.right, shapes.right_of[rows[0]], angles[:joints])
+    right = _at_rest(constants, shapes.stacks[0], shapes.of[0, rows[0]], angles[:joints])
     left = right
     if not is_mirrored:
-        left = _at_rest(constants, shapes.left, shapes.left_of[rows[0]], angles[joints:])
-    distance = np.array([clearance(right.elements), clearance(left.elements)])
+        left = _at_rest(constants, shapes.stacks[-1], shapes.of[-1, rows[0]], angles[joints:])
+    distance = np.full(2, clearance(right.elements))
+    if not is_mirrored:
+        distance[1] = clearance(left.elements)
     if not (distance >= 0.0).all():
         return loads, distance
     n = right.elements.chord.size
     system = pair_system(right.elements, left.elements, is_mirrored)
-    bound = np.empty((system.matrix.shape[0], rows.size))
-    winds = np.empty((rows.size, system.matrix.shape[0], 3, 1))
-    for r in range(rows.size):
-        k = rows[r]
-        flow = _flow(constants, right, shapes.right, shapes.right_of[k], motion.rates[k, :joints],
-                     motion.twist[k])  # fmt: skip
-        bound[:n, r], winds[r, :n] = flow.bound[:, 0], flow.wind
-        if not is_mirrored:
-            flow = _flow(constants, left, shapes.left, shapes.left_of[k], motion.rates[k, joints:],
-                         mirrored(motion.twist[k]))  # fmt: skip
-            bound[n:, r], winds[r, n:] = flow.bound[:, 0], flow.wind
+    unknowns = system.matrix.shape[0]
+    bound, winds = np.empty((unknowns, rows.size)), np.empty((rows.size, unknowns, 3, 1))
+    rates, twists = motion.rates[rows], motion.twist[rows]
+    of_right, of_left = shapes.of[0, rows[0]], shapes.of[-1, rows[0]]
+    _meet(
+        constants,
+        right,
+        shapes.stacks[0],
+        of_right,
+        rates[:, :joints],
+        twists,
+        bound[:n],
+        winds[:, :n],
+    )
+    if not is_mirrored:
+        for r in range(rows.size):
+            twists[r] = mirrored(twists[r])
+        _meet(
+            constants,
+            left,
+            shapes.stacks[-1],
+            of_left,
+            rates[:, joints:],
+            twists,
+            bound[n:],
+            winds[:, n:],
+        )
     strengths = circulations(system, bound)
-    induced_y, induced_z = system.induced_y @ strengths, system.induced_z @ strengths
+    # One row after another: what belongs to one is then in one place.
+    gamma = np.ascontiguousarray(strengths.T).reshape(rows.size, unknowns, 1)
+    y = np.ascontiguousarray((system.induced_y @ strengths).T).reshape(rows.size, unknowns, 1)
+    z = np.ascontiguousarray((system.induced_z @ strengths).T).reshape(rows.size, unknowns, 1)
     at_tail = tail_influence(tail, right.elements.node)
     at_tail_of_left = at_tail if is_mirrored else tail_influence(tail, left.elements.node)
     no_derivatives = np.empty(0, np.int64)
+    forces = np.empty((rows.size, unknowns, 3, 1))
     for r in range(rows.size):
-        gamma, y, z = strengths[:, r : r + 1], induced_y[:, r : r + 1], induced_z[:, r : r + 1]
-        force = _forces(constants, right, winds[r, :n], gamma[:n], y[:n], z[:n])
-        torques = torques_of(constants.wing, right, force)
-        force_of_left = force
+        forces[r, :n] = _forces(frame, right, winds[r, :n], gamma[r, :n], y[r, :n], z[r, :n])
+        of_right_wing = wing_wrench(right.elements.position, forces[r, :n])
+        of_left_wing = of_right_wing
         if not is_mirrored:
-            force_of_left = _forces(constants, left, winds[r, n:], gamma[n:], y[n:], z[n:])
-            loads[r, body + joints :] = torques_of(constants.wing, left, force_of_left)
-        loads[r, body : body + joints] = constants.links.copies * torques
+            forces[r, n:] = _forces(frame, left, winds[r, n:], gamma[r, n:], y[r, n:], z[r, n:])
+            of_left_wing = wing_wrench(left.elements.position, forces[r, n:])
         induced = np.zeros((2, 1))
         if tail.span > 0.0:
             # In the plane of symmetry each wing induces half of what a pair of them would.
-            of_right, of_left = strengths[:n, r].copy(), strengths[-n:, r].copy()
-            induced[:, 0] = 0.5 * (at_tail @ of_right + at_tail_of_left @ of_left)
-        wrench = pair_wrench(right.elements, force, left.elements, force_of_left)
-        wrench += airframe_loads(frame, induced, motion.twist[rows[r]], no_derivatives)[:, 0]
+            induced = 0.5 * (at_tail @ gamma[r, :n] + at_tail_of_left @ gamma[r, -n:])
+        wrench = pair_wrench(of_right_wing, of_left_wing)
+        wrench += airframe_loads(frame, induced, motion.twist[rows[r]], no_derivatives)
         for b in range(body):
-            loads[r, b] = wrench[directions[b]]
+            loads[r, b] = wrench[directions[b], 0]
+    about_joints = torques_along(right.velocity_per_rate, forces[:, :n])
+    loads[:, body : body + joints] = constants.links.copies * about_joints
+    if not is_mirrored:
+        loads[:, body + joints :] = torques_along(left.velocity_per_rate, forces[:, n:])
     return loads, distance
 
 
@@ -178,59 +205,50 @@ def _at_rest(constants: Constants, shapes: StackedShapes, s: int, angles: FloatA
     """The s-th of the shapes, placed where `angles` (A,) turn it, without velocities."""
     shape = shape_at(shapes, s)
     return place_wing(
-        constants.wing, shape, constants.rigid_joint_count, angles, np.zeros(angles.size)
+        constants.joints, shape, constants.rigid_joint_count, angles, np.zeros(angles.size)
     )
 
 
 @kernel
-def _flow(
+def _meet(
     constants: Constants,
     placed: PlacedWing,
     shapes: StackedShapes,
     s: int,
     rates: FloatArray,
-    twist: FloatArray,
-) -> Flow:
-    """What a placed wing of the s-th shape meets at these rates (A,) of its joints."""
-    root, position = constants.wing.root, placed.elements.position
-    spin = spin_of(placed.chain, constants.rigid_joint_count, rates)
-    velocity = velocity_at(shapes, s, rates) @ placed.axes.T
-    for e in range(position.shape[0]):
-        x, y, z = position[e, 0] - root[0], position[e, 1] - root[1], position[e, 2] - root[2]
-        velocity[e, 0] += spin[1] * z - spin[2] * y
-        velocity[e, 1] += spin[2] * x - spin[0] * z
-        velocity[e, 2] += spin[0] * y - spin[1] * x
-    return wing_flow(_with_velocity(placed.elements, velocity), twist, np.empty(0, np.int64))
+    twists: FloatArray,
+    bound: FloatArray,
+    winds: FloatArray,
+) -> None:
+    """Write what a placed wing of the s-th shape meets at rates (R, A) of its joints.
+
+    The circulations (N, R) m2/s without downwash and the winds (R, N, 3, 1) m/s of a body that
+    moves with these `twists` (R, 6).
+    """
+    root, position = constants.joints.root, placed.elements.position
+    no_derivatives, turn = np.empty(0, np.int64), np.ascontiguousarray(placed.axes.T)
+    for r in range(len(rates)):
+        spin = spin_of(placed.chain, constants.rigid_joint_count, rates[r])
+        velocity = velocity_at(shapes, s, rates[r]) @ turn
+        for e in range(position.shape[0]):
+            x, y, z = position[e, 0] - root[0], position[e, 1] - root[1], position[e, 2] - root[2]
+            velocity[e, 0] += spin[1] * z - spin[2] * y
+            velocity[e, 1] += spin[2] * x - spin[0] * z
+            velocity[e, 2] += spin[0] * y - spin[1] * x
+        flow = wing_flow(placed.elements, velocity, twists[r], no_derivatives)
+        bound[:, r], winds[r] = flow.bound[:, 0], flow.wind
 
 
 @kernel
 def _forces(
-    constants: Constants,
+    frame: Airframe,
     placed: PlacedWing,
     wind: FloatArray,
     circulation: FloatArray,
     induced_y: FloatArray,
     induced_z: FloatArray,
 ) -> FloatArray:
-    """Forces (N, 3) N on the elements of a wing in `wind` (N, 3, 1) m/s."""
-    frame = constants.frame
-    forces = element_forces(
+    """Forces (N, 3, 1) N on the elements of a wing in `wind` (N, 3, 1) m/s."""
+    return element_forces(
         placed.elements, wind, circulation, induced_y, induced_z, frame.density, frame.profile
-    )
-    return forces[:, :, 0].copy()
-
-
-@kernel
-def _with_velocity(elements: Elements, velocity: FloatArray) -> Elements:
-    return Elements(
-        elements.position,
-        velocity,
-        elements.chord_direction,
-        elements.normal,
-        elements.span_direction,
-        elements.chord,
-        elements.node,
-        elements.width,
-        elements.induced_y,
-        elements.induced_z,
     )

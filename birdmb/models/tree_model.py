@@ -25,6 +25,7 @@ from birdmb.models.motion import (
     HELD,
     PLANAR,
     SPACE_STATES,
+    Mirror,
     MotionName,
     gravity_along_body,
     motion_named,
@@ -87,7 +88,7 @@ class TreeModel(BirdModel):
         self.prescribed = self._follow_drivers()
         right = self._instants_of(self.wing)
         instants = right, right if bird.is_symmetric else self._instants_of(self.left_wing)
-        self._tree = TreeRates(
+        self.tree = TreeRates(
             bird,
             self.wing,
             instants,
@@ -104,7 +105,7 @@ class TreeModel(BirdModel):
             self._coordinates_of_body,
             self._forces,
             self.prescribed,
-            self._tree.driver_accelerations,
+            self.tree.driver_accelerations,
         )
         self._integration: Integration | None = None
 
@@ -161,6 +162,16 @@ class TreeModel(BirdModel):
     def _first_joint(self) -> int:
         """Where the states of joints and hinges begin."""
         return len(self.motion.states)
+
+    @property
+    def mirror(self) -> Mirror:
+        """How states of the bird become those of its mirror image: the wings change sides."""
+        of_body = super().mirror
+        first, half = self._first_joint, (len(self.state_names) - self._first_joint) // 2
+        order = of_body.order.copy()
+        if self._sides == len(SIDES):
+            order[first:] = np.roll(order[first:], half)
+        return Mirror(order, of_body.signs)
 
     def body_in_space(self, states: FloatArray) -> FloatArray:
         """The body's states in space (K, 8), as `SPACE_STATES`, of states (K, n)."""
@@ -269,7 +280,7 @@ class TreeModel(BirdModel):
         )
         twist = self._twist_through_air(times, space)
         motion = Motion(twist, gravity_along_body(space, self.bird.gravity), angles, rates)
-        a = self._tree.accelerations(times, motion)
+        a = self.tree.accelerations(times, motion)
         found = np.empty(states.shape)
         first = self._first_joint
         if first:
@@ -298,7 +309,7 @@ class TreeModel(BirdModel):
     ) -> tuple[FloatArray, FloatArray]:
         """As `accelerations`, each (K, c)."""
         q, v = self._coordinates(times, states)
-        mass, bias = self._tree.inertia.at(q, v)
+        mass, bias = self.tree.inertia.at(q, v)
         torques = loads.joint_torques + self._spring_torques_along(times, states)
         place, _ = coordinates_along(self.body_in_space(states))
         on_body = body_forces(place, np.hstack([loads.stack.force, loads.stack.moment]))
@@ -346,7 +357,7 @@ class TreeModel(BirdModel):
     def _shapes_along(
         self, times: FloatArray, angles: FloatArray, rates: FloatArray
     ) -> tuple[tuple[StackedShapes, StackedShapes], IntArray]:
-        return self._tree.shapes(times, angles, rates)
+        return self.tree.shapes(times, angles, rates)
 
     def driven_state(self, t: float = 0.0) -> FloatArray:
         """State (n,) at t (s) of the body in mean trim, with compliant joints on their drivers."""
@@ -385,7 +396,7 @@ class TreeModel(BirdModel):
         angles, _, _ = self.drivers_of_both(np.zeros(1))
         body = self._coordinates_of_body
         q = np.concatenate([np.zeros(body.size), angles.ravel()])[None, :]
-        (mass,), _ = self._tree.inertia.at(q, np.zeros_like(q))
+        (mass,), _ = self.tree.inertia.at(q, np.zeros_like(q))
         free = ~self.prescribed
         names = (*(COORDINATES[b] for b in body), *self.bird.angle_names, *self.bird.angle_names)
         with overflow_told(self.bird, "the mass matrix"):
@@ -424,4 +435,4 @@ class TreeModel(BirdModel):
 
     def _forces(self, t: float, q: FloatArray, v: FloatArray) -> FloatArray:
         """Generalised forces (n,) of air, springs and dampers: Exudyn's user function."""
-        return self._tree.forces(t, q, v, self.air_velocities(np.array([t]))[0])
+        return self.tree.forces(t, q, v, self.air_velocities(np.array([t]))[0])

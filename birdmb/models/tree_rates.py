@@ -14,7 +14,7 @@ from birdmb.models.row_groups import groups_of
 from birdmb.models.springs import Springs
 from birdmb.models.tree_forces import tree_forces
 from birdmb.topology import Bird
-from birdmb.wing.arrays import WingArrays
+from birdmb.wing.arrays import WingArrays, joint_arrays
 from birdmb.wing.stacked import StackedShapes
 
 
@@ -51,8 +51,8 @@ class TreeRates:
         both, body = springs.damping.size, body_coordinates.size
         count = both // 2 if is_mirrored else both
         self._joints = both // 2
-        self._constants = Constants(
-            wing,
+        self.constants = Constants(
+            joint_arrays(wing),
             tree_links(bird, body_coordinates, is_mirrored=is_mirrored),
             frame,
             Springs(*(each[:count] for each in springs)),
@@ -72,27 +72,29 @@ class TreeRates:
                 floating point.
         """
         distinct, time_of = np.unique(times, return_inverse=True)
-        drivers, instants = self._drivers(distinct)
+        drivers, instants = self.drivers_at(distinct)
         with overflow_told(self._bird, f"the acceleration at t = {times[0]:.4g} s"):
-            shapes = self._shapes(instants, times, time_of, motion.angles, motion.rates)
-            found, clearance = free_accelerations(self._constants, shapes, time_of, drivers, motion)
+            shapes = self.shapes_at(instants, times, time_of, motion.angles, motion.rates)
+            found, clearance = free_accelerations(self.constants, shapes, time_of, drivers, motion)
         self._refuse_misplaced(times, motion.angles, clearance)
         return found
 
     def forces(self, t: float, q: FloatArray, v: FloatArray, air: FloatArray) -> FloatArray:
         """Generalised forces (n,) of air, springs and dampers at t (s); see `tree_forces`."""
         times, body = np.array([t]), self._coordinates.size
-        drivers, instants = self._drivers(times)
+        drivers, instants = self.drivers_at(times)
         count = drivers.angles.shape[1]
         angles, rates = q[None, body : body + count], v[None, body : body + count]
-        if not (np.isfinite(angles).all() and np.isfinite(rates).all()):
+        by_time = all(each.shapes is not None for each in instants)
+        if not (by_time or (np.isfinite(angles).all() and np.isfinite(rates).all())):
             angles, rates = drivers.angles, drivers.rates  # any will do: there are no forces
         with overflow_told(self._bird, f"the force of the air at t = {t:.4g} s"):
-            shapes = self._shapes(instants, times, np.zeros(1, np.int64), angles, rates)
+            shapes = self.shapes_at(instants, times, np.zeros(1, np.int64), angles, rates)
             forces, clearance = tree_forces(
-                self._constants, shapes, drivers, self._coordinates, q, v, air
+                self.constants, shapes, drivers, self._coordinates, q, v, air
             )
-        self._refuse_misplaced(times, angles, clearance[None])
+        if not clearance.min() >= 0.0:
+            self._refuse_misplaced(times, angles, clearance[None])
         return forces
 
     def driver_accelerations(self, t: float) -> FloatArray:
@@ -108,12 +110,14 @@ class TreeRates:
         Those with the joints at zero that turn them, and which (2, K) of them each instant has.
         """
         distinct, time_of = np.unique(times, return_inverse=True)
-        _, instants = self._drivers(distinct)
+        _, instants = self.drivers_at(distinct)
         flat = len(times), -1
-        found = self._shapes(instants, times, time_of, angles.reshape(flat), rates.reshape(flat))
-        return (found.right, found.left), np.stack([found.right_of, found.left_of])
+        found = self.shapes_at(instants, times, time_of, angles.reshape(flat), rates.reshape(flat))
+        both = found.stacks[0], found.stacks[-1]
+        return both, np.stack([found.of[0], found.of[-1]])
 
-    def _drivers(self, distinct: FloatArray) -> tuple[Drivers, list[StackedInstants]]:
+    def drivers_at(self, distinct: FloatArray) -> tuple[Drivers, list[StackedInstants]]:
+        """Drivers at times (P,) s of both wings together, and what these determine of each."""
         sides = self._instants[:1] if self._is_mirrored else self._instants
         instants = [each.stacked(distinct) for each in sides]
         if self._is_mirrored:
@@ -122,7 +126,7 @@ class TreeRates:
         angles, rates, accelerations, _ = zip(*instants, strict=True)
         return Drivers(*map(np.hstack, (angles, rates, accelerations))), instants
 
-    def _shapes(
+    def shapes_at(
         self,
         instants: list[StackedInstants],
         times: FloatArray,
@@ -145,7 +149,7 @@ class TreeRates:
                 self._instants[side].shapes(times[first], own_angles[first], own_rates[first])
             )
             of.append(alike.of)
-        return Shapes(stacks[0], stacks[-1], of[0], of[-1])
+        return Shapes(tuple(stacks), of[0][None] if len(of) == 1 else np.stack(of))
 
     def _refuse_misplaced(
         self, times: FloatArray, angles: FloatArray, clearance: FloatArray

@@ -19,9 +19,9 @@ from birdmb.models.flight import Flight
 from birdmb.models.gusts import Gust, velocity_of
 from birdmb.models.loads import Loads, LoadsAlong
 from birdmb.models.loads_kernel import loads_along
-from birdmb.models.motion import PLANAR, Motion, along_body
+from birdmb.models.motion import PLANAR, Mirror, Motion, along_body
 from birdmb.topology import Bird
-from birdmb.wing.arrays import wing_arrays
+from birdmb.wing.arrays import joint_arrays, wing_arrays
 from birdmb.wing.stacked import StackedShapes, shape_at, wing_shapes
 
 # Divisible by 1 to 6: that many shooting segments then share one grid of steps.
@@ -85,7 +85,14 @@ class BirdModel(ABC):
     @property
     def is_mirrored(self) -> bool:
         """Whether the left wing is the mirror image of the right one in every state."""
-        return self.bird.is_symmetric and not self.motion.lateral.any()
+        return self.bird.is_symmetric and self.motion.is_symmetric
+
+    @property
+    def mirror(self) -> Mirror:
+        """How states of the bird become those of its mirror image."""
+        n, signs = len(self.state_names), np.ones(len(self.state_names))
+        signs[: self.motion.lateral.size][self.motion.lateral] = -1.0
+        return Mirror(np.arange(n), signs)
 
     def air_velocities(self, times: FloatArray) -> FloatArray:
         """Velocities (K, 3) m/s of the air at `times` (K,) s: forwards, to the right and down.
@@ -154,11 +161,12 @@ class BirdModel(ABC):
 
     def drivers_of_both(self, times: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Driver angles, rates and accelerations, each (K, 2, A), at `times` (K,) s."""
-        right = driver_motion_along(self.wing, times)
-        left = right if self.bird.is_symmetric else driver_motion_along(self.left_wing, times)
-        angles, rates, accelerations = (
-            np.stack(pair, axis=1) for pair in zip(right, left, strict=True)
-        )
+        of_both = np.empty((3, times.size, 2, self.wing.offset.size))
+        of_both[:, :, 0] = driver_motion_along(self.wing, times)
+        of_both[:, :, 1] = of_both[:, :, 0]
+        if not self.bird.is_symmetric:
+            of_both[:, :, 1] = driver_motion_along(self.left_wing, times)
+        angles, rates, accelerations = of_both
         return angles, rates, accelerations
 
     def actuator_torques(self, t: float, x: npt.ArrayLike) -> FloatArray:
@@ -206,7 +214,7 @@ class BirdModel(ABC):
                     k = int(np.argmin(converged))
                     raise lifting_line_lost(self.bird, float(times[k]), angles[k, side])
             stack = loads_along(
-                self.wing,
+                joint_arrays(self.wing),
                 shapes,
                 shape_of,
                 self.rigid_joint_count,
@@ -241,7 +249,7 @@ class BirdModel(ABC):
 
     def _refuse_upright(self, times: FloatArray, states: FloatArray) -> None:
         """Raise `StateError` where the angles of motion in space end."""
-        if not self.motion.lateral.any():
+        if self.motion.is_symmetric:
             return
         upright = np.abs(states[:, self.state_names.index("theta")]) >= 0.5 * np.pi
         if upright.any():

@@ -36,6 +36,21 @@ class WingArrays(NamedTuple):
     angular_frequency: float
 
 
+class JointArrays(NamedTuple):
+    """The part of `WingArrays` that places joints: less to hand over where no shape is made."""
+
+    root: FloatArray  # (3,) as in `WingArrays`
+    bone_length: FloatArray  # (3,)
+    axis: FloatArray  # (J, 3)
+    segment: IntArray  # (J,)
+    angle_count: int  # A
+
+
+def joint_arrays(wing: WingArrays) -> JointArrays:
+    """What of a wing places its joints."""
+    return JointArrays(wing.root, wing.bone_length, wing.axis, wing.segment, int(wing.offset.size))
+
+
 def wing_arrays(bird: Bird) -> WingArrays:
     """Arrays of a bird's right wing, in the order of its joint chain and feather list."""
     joints, feathers, angles = bird.joints, bird.feathers, bird.angle_names

@@ -8,7 +8,7 @@ import numpy as np
 
 from birdmb._kernels import kernel
 from birdmb._typing import FloatArray
-from birdmb.wing.arrays import WingArrays
+from birdmb.wing.arrays import JointArrays, WingArrays
 from birdmb.wing.rotations import rotate_about
 
 
@@ -20,7 +20,7 @@ class Chain(NamedTuple):
 
 
 @kernel
-def joint_chain(wing: WingArrays, angles: FloatArray) -> Chain:
+def joint_chain(wing: WingArrays | JointArrays, angles: FloatArray) -> Chain:
     """Axes of the joints and origins of the bones at `angles` (J,) rad; more are not read."""
     n = wing.segment.size
     axis = np.empty((n, 3))
@@ -38,7 +38,7 @@ def joint_chain(wing: WingArrays, angles: FloatArray) -> Chain:
 
 
 @kernel
-def frame_after(wing: WingArrays, angles: FloatArray, joints: int) -> FloatArray:
+def frame_after(wing: WingArrays | JointArrays, angles: FloatArray, joints: int) -> FloatArray:
     """Rotation (3, 3) of the frame behind the first `joints` joints, to body axes."""
     R = np.eye(3)
     for j in range(joints):

@@ -3,6 +3,7 @@
 import numpy as np
 
 from birdmb.aerodynamics.pair import pair_loads, pair_wrench
+from birdmb.aerodynamics.twist_loads import wing_wrench
 
 
 def element_loads(placed, density, profile, u, w, q):
@@ -13,4 +14,5 @@ def element_loads(placed, density, profile, u, w, q):
 
 def resultant(placed, force):
     """F_x, F_z (N) and the pitching moment (N m) about G of both wings."""
-    return pair_wrench(placed, force, placed, force)[::2]
+    of_one = wing_wrench(placed.position, force[:, :, None])
+    return pair_wrench(of_one, of_one)[::2, 0]

@@ -205,12 +205,12 @@ def test_birds_that_differ_in_springs_share_their_instants_and_no_result_depends
         )
     )
     at = np.array([0.1])
-    kept = [each._tree._instants[0].stacked(at) for each in (model, softer, wider)]
+    kept = [each.tree._instants[0].stacked(at) for each in (model, softer, wider)]
     assert kept[0] is kept[1]
     assert kept[0] is not kept[2]
     x = model.driven_state()
     end = softer.flow(x, 0.0, 0.25)
     instants._kept.cache_clear()
     alone = birdmb.MultibodyModel(softer.bird, steps_per_beat=40)
-    assert alone._tree._instants[0].stacked(at) is not kept[1]
+    assert alone.tree._instants[0].stacked(at) is not kept[1]
     np.testing.assert_array_equal(alone.flow(x, 0.0, 0.25), end)

@@ -130,6 +130,9 @@ def test_states_of_both_wings_have_names(model):
 
 def test_mirrored_states_have_mirrored_rates_and_flows(model):
     image = mirror(model)
+    np.testing.assert_array_equal(
+        np.diag(model.mirror.signs) @ np.eye(len(image))[model.mirror.order], image
+    )
     x = aside(model, 0.03)
     np.testing.assert_allclose(
         model.rhs(0.03, image @ x), image @ model.rhs(0.03, x), rtol=1e-11, atol=1e-10

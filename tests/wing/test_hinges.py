@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from birdmb.aerodynamics.elements import place_elements
-from birdmb.aerodynamics.joints import hinge_torques
+from birdmb.aerodynamics.joints import torques
 from birdmb.aerodynamics.prescribed import driver_motion
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.edges import feather_ends, skeleton, wing_edges
@@ -128,7 +128,7 @@ def test_torque_about_a_hinge_is_the_work_of_the_loads(hinged):
     shape = wing_shape(hinged, angles, rates, 16, ROUNDING, False)
     placed = place_elements(shape, hinged.root)
     force = element_loads(placed, 1.225, 0.0, 18.0, -2.0, 0.3).force
-    torque = hinge_torques(shape.hinge_velocity, force)
+    torque = torques(shape.hinge_velocity, force)
     h = 1e-5
     for hinge in (0, 1):
         step = h * (np.arange(8) == 6 + hinge)
