@@ -7,7 +7,7 @@ from pathlib import Path
 
 from birdmb.cli.outcome import InputError
 from birdmb.topology import Bird, load_bird, parse_assignment
-from birdmb.topology.unused import SPRING, unused_spring
+from birdmb.topology.unused import SPRING, own_names, unused_spring
 
 
 def requested_bird(
@@ -34,7 +34,8 @@ def requested_bird(
     found = bird.with_values(completed)
     for joint in found.joints:
         reason = unused_spring(joint)
-        unused = [name for key in SPRING if (name := f"{joint.name}.{key}") in values]
+        names = [f"{own}.{key}" for own in own_names(joint) for key in SPRING]
+        unused = [name for name in names if name in values]
         if reason and unused and f"{joint.name}.mode" not in (varied or {}):
             raise InputError(f"--set {unused[0]} has no effect: {reason}.")
     return found
@@ -46,7 +47,7 @@ def _completing(
     """What is varied of the springs and dampers that are also assigned to."""
     found: dict[str, object] = {}
     for joint in bird.joints:
-        names = [f"{joint.name}.{key}" for key in SPRING]
+        names = [f"{own}.{key}" for own in own_names(joint) for key in SPRING]
         if any(name in assigned for name in names):
             found |= {name: varied[name] for name in names if name in varied}
     return found

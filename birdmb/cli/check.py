@@ -18,7 +18,7 @@ from birdmb.models.natural_oscillation import (
 )
 from birdmb.studies.bird_warnings import bird_warnings, load_warnings
 from birdmb.studies.refinement import LoadChange, load_change
-from birdmb.topology import BONES, Bird
+from birdmb.topology import BONES, SIDES, Bird
 from birdmb.wing.outline import span_and_area
 
 _DRAG_SPEED = 10.0  # m/s
@@ -123,10 +123,19 @@ def _joints(bird: Bird) -> Table:
         "joint", "segment", "mode", "offset", "amplitude", "phase",
         numbers=(3, 4, 5),
     )  # fmt: skip
-    for joint in bird.joints:
+    rows = [
+        (name, own)
+        for joint in bird.joints
+        for name, own in (
+            [(joint.name, joint.on("right"))]
+            if joint.on("right") == joint.on("left")
+            else [(f"{joint.name}.{side}", joint.on(side)) for side in SIDES]
+        )
+    ]
+    for name, joint in rows:
         angles = (joint.offset, joint.amplitude, joint.phase)
         table.add_row(
-            joint.name,
+            name,
             joint.segment,
             joint.mode,
             *(f"{np.degrees(angle):.2f}" for angle in angles),

@@ -232,7 +232,7 @@ class TreeInertia:
 
     def __init__(self, bird: Bird, body_coordinates: IntArray) -> None:
         links = bird_links(bird, body_coordinates)
-        self.size = len(links)
+        self.size, self.body_coordinates = len(links), body_coordinates
         self._container = exu.SystemContainer()
         self._mbs = self._container.AddSystem()
         _, self._tree = _add_tree(self._mbs, links, bird.gravity)

@@ -64,15 +64,15 @@ class MultibodyModel(TreeModel):
         The compliant joints are left to swing for some beats on a body that flies on steadily.
         """
         start = self.driven_state()
-        if not self._compliant.any():
+        if not self.joint_states.count:
             return start
         if self.motion is HELD:
             for _ in range(_BEATS_TO_SETTLE):
                 start = self.flow(start, 0.0, self.bird.period)
             return start
         held = self._held_like(start)
-        joints = np.tile(held.initial_guess(), self._sides // held._sides)
-        return np.concatenate([start[: self._first_joint], joints])
+        joints = self.joint_states.spread(held.initial_guess(), held.joint_states.sides)
+        return np.concatenate([start[: self.joint_states.first], joints])
 
     def starting_paths(self, times: FloatArray) -> Iterator[FloatArray]:
         """Paths (K, n) at `times` (K,) s to look for flights from, the guess first.
@@ -90,7 +90,7 @@ class MultibodyModel(TreeModel):
                 swinging = self._joints_held(body, times)
                 if swinging is not None:
                     yield np.hstack([body, swinging])
-                yield np.hstack([body, guess[:, self._first_joint :]])
+                yield np.hstack([body, guess[:, self.joint_states.first :]])
 
     def _rigid(self, times: FloatArray) -> FloatArray:
         """Paths (S, K, m) of the body along the flights of the rigid bird."""
@@ -108,21 +108,22 @@ class MultibodyModel(TreeModel):
 
     def _joints_held(self, body: FloatArray, times: FloatArray) -> FloatArray | None:
         """States (K, m) of the compliant joints on a body held as it moves on average."""
-        if not self._compliant.any():
+        if not self.joint_states.count:
             return None
         held = self._held_like(body.mean(axis=0))
         try:
             cycle = find_limit_cycle(held, accuracy=1e-3, method="collocation")
         except (OrbitError, StateError):
             return None
-        return np.tile(cycle.trajectory(times).states, (1, self._sides // held._sides))
+        states = cycle.trajectory(times).states
+        return self.joint_states.spread(states, held.joint_states.sides)
 
     def _held_like(self, body: FloatArray) -> MultibodyModel:
         """The same bird held as a state (n,) has its body, but for its turning.
 
         In a symmetric motion it has states for both wings together, else for each.
         """
-        space = self.motion.in_space(body[None, : self._first_joint])[0]
+        space = self.motion.in_space(body[None, : self.joint_states.first])[0]
         space[3:6] = 0.0
         options: dict[str, Any] = {**self._options(), "motion": "held", "body_state": space}
         return type(self)(self.bird, **options)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from birdmb.models.feather_rods import feather_rods
-from birdmb.topology import BONES, Bird, Joint
+from birdmb.topology import BONES, SIDES, Bird, Joint
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.chain import joint_chain
 from birdmb.wing.edges import skeleton
@@ -65,8 +65,20 @@ def joint_oscillation(bird: Bird, joint: Joint) -> NaturalOscillation:
 
 
 def joint_oscillations(bird: Bird) -> dict[str, NaturalOscillation]:
-    """Those of the compliant joints, by the joints' names."""
-    return {joint.name: joint_oscillation(bird, joint) for joint in bird.compliant_joints}
+    """Those of the compliant joints, by the joints' names, as `oscillations_of`."""
+    found: dict[str, NaturalOscillation] = {}
+    for joint in bird.compliant_joints:
+        found |= oscillations_of(bird, joint)
+    return found
+
+
+def oscillations_of(bird: Bird, joint: Joint) -> dict[str, NaturalOscillation]:
+    """That of a compliant joint, by its name, or of each side where the sides differ."""
+    if bird.is_symmetric:
+        return {joint.name: joint_oscillation(bird.side("right"), joint.on("right"))}
+    return {
+        f"{joint.name}.{side}": joint_oscillation(bird.side(side), joint.on(side)) for side in SIDES
+    }
 
 
 def hinge_oscillations(bird: Bird) -> dict[str, NaturalOscillation]:

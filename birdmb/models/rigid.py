@@ -278,7 +278,7 @@ class RigidModel(BirdModel):
 
     def _tabulated(self, times: FloatArray) -> RigidTable:
         right = self.wing_at(times)
-        return self._with_wakes(right, right if self.bird.is_symmetric else self._left_at(times))
+        return self._with_wakes(right, right if self.has_like_wings else self._left_at(times))
 
     def _with_wakes(self, right: PrescribedWing, left: PrescribedWing) -> RigidTable:
         """The table with what asymmetric motions or wings need; symmetric flight does without."""

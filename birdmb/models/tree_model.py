@@ -12,13 +12,14 @@ from birdmb._typing import BoolArray, FloatArray, IntArray
 from birdmb.errors import ArgumentError, StateError
 from birdmb.models.compiled_calls import COMPILED, calls_compiled_code
 from birdmb.models.determinacy import refuse_undetermined
-from birdmb.models.exudyn_tree import ExudynBird, typical_inertias
+from birdmb.models.exudyn_tree import ExudynBird
 from birdmb.models.failures import overflow_told, refuse_runaway
 from birdmb.models.flight import Flight
 from birdmb.models.gusts import Gust
 from birdmb.models.implicit import integrate_implicitly
 from birdmb.models.instants import Instants
 from birdmb.models.integration import Integration, Integrator, integration_for
+from birdmb.models.joint_states import JointStates
 from birdmb.models.loads import LoadsAlong
 from birdmb.models.motion import (
     FREE,
@@ -36,7 +37,6 @@ from birdmb.models.refusals import refuse_asymmetric, require_inertia
 from birdmb.models.rigid import RigidModel
 from birdmb.models.springs import Springs, has_two_sides, spring_torques_along, springs_of
 from birdmb.models.tree_coordinates import (
-    COORDINATES,
     IN_PLANE,
     IN_SPACE,
     body_forces,
@@ -47,13 +47,10 @@ from birdmb.models.tree_coordinates import (
 )
 from birdmb.models.tree_rates import TreeRates
 from birdmb.models.wing_model import BirdModel
-from birdmb.topology import Bird
+from birdmb.topology import SIDES, Bird
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.chain import joints_turning_the_whole
 from birdmb.wing.stacked import StackedShapes
-
-_JOINT_SCALE = (0.5, 10.0)  # rad, rad/s
-SIDES: tuple[Literal["right"], Literal["left"]] = ("right", "left")
 
 
 class TreeModel(BirdModel):
@@ -78,10 +75,14 @@ class TreeModel(BirdModel):
             require_inertia(bird)
         self._integrator: Integrator = integrator
         compliant = [joint.mode == "compliant" for joint in bird.joints]
-        hinges = [feather.hinge_name for feather in bird.hinged_feathers]
-        self._compliant = np.array(compliant + [True] * len(hinges), dtype=bool)
-        self._sides = 1 if self.is_mirrored else 2
-        self._name_states()
+        self.joint_states = JointStates(
+            bird,
+            first=len(self.motion.states),
+            sides=1 if self.is_mirrored else len(SIDES),
+            compliant=np.array(compliant + [True] * len(bird.hinged_feathers), dtype=bool),
+        )
+        self.state_names = self.motion.states + self.joint_states.names
+        self.state_units = self.motion.units + self.joint_states.units
         springs = [springs_of(bird.side(side)) for side in SIDES]
         self._springs = Springs(*(np.concatenate(pair) for pair in zip(*springs, strict=True)))
         self.rigid_joint_count = joints_turning_the_whole(self.wing)
@@ -99,7 +100,9 @@ class TreeModel(BirdModel):
             springs=self._springs,
             prescribed=self.prescribed,
         )
-        self._refuse_undetermined()
+        if self.joint_states.count:
+            angles, _, _ = self.drivers_of_both(np.zeros(1))
+            refuse_undetermined(bird, self.tree.inertia, angles.ravel(), ~self.prescribed)
         self._exudyn = ExudynBird(
             bird,
             self._coordinates_of_body,
@@ -135,18 +138,11 @@ class TreeModel(BirdModel):
         held_aside = self._held is not None and bool(self._held[FREE.lateral].any())
         return super().is_mirrored and not held_aside
 
-    def _name_states(self) -> None:
-        """Name the states: the body's, then angle and rate of what moves, of each side."""
-        angles = np.array(self.bird.angle_names)[self._compliant].tolist()
-        if self._sides == 2:
-            angles = [f"{name}.{side}" for side in SIDES for name in angles]
-        self.state_names = self.motion.states + tuple(
-            name for angle in angles for name in (angle, f"{angle}.rate")
-        )
-        self.state_units = self.motion.units + ("rad", "rad/s") * len(angles)
-
     def _instants_of(self, wing: WingArrays) -> Instants:
-        shaping = np.flatnonzero(self._compliant[self.rigid_joint_count :]) + self.rigid_joint_count
+        shaping = (
+            np.flatnonzero(self.joint_states.compliant[self.rigid_joint_count :])
+            + self.rigid_joint_count
+        )
         return Instants(
             self.bird, wing, self.discretisation, self.rigid_joint_count, shaping.tolist()
         )
@@ -159,18 +155,11 @@ class TreeModel(BirdModel):
         return super()._altered(**{"integrator": self.integration.method, **options})
 
     @property
-    def _first_joint(self) -> int:
-        """Where the states of joints and hinges begin."""
-        return len(self.motion.states)
-
-    @property
     def mirror(self) -> Mirror:
         """How states of the bird become those of its mirror image: the wings change sides."""
         of_body = super().mirror
-        first, half = self._first_joint, (len(self.state_names) - self._first_joint) // 2
         order = of_body.order.copy()
-        if self._sides == len(SIDES):
-            order[first:] = np.roll(order[first:], half)
+        order[self.joint_states.first :] = self.joint_states.mirrored
         return Mirror(order, of_body.signs)
 
     def body_in_space(self, states: FloatArray) -> FloatArray:
@@ -190,7 +179,7 @@ class TreeModel(BirdModel):
 
     @calls_compiled_code
     def _chosen_integration(self) -> Integration:
-        if not self._compliant.any() and self._integrator == "auto":
+        if not self.joint_states.compliant.any() and self._integrator == "auto":
             return Integration("explicit", super().steps_per_beat)
         return integration_for(self, self._steps_wanted, self._integrator)
 
@@ -217,17 +206,14 @@ class TreeModel(BirdModel):
     @property
     def state_scale(self) -> FloatArray:
         """Typical sizes of the states, (n,)."""
-        angles = self._sides * int(self._compliant.sum())
-        return np.array(self.motion.scale + _JOINT_SCALE * angles)
+        return np.array(self.motion.scale + self.joint_states.scale)
 
     def motion_of_both(
         self, times: FloatArray, states: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
         """Angles and rates, each (K, 2, A), of joints and hinges of the right and the left wing."""
         angles, rates, _ = self.drivers_of_both(times)
-        own = states[:, self._first_joint :].reshape(len(states), self._sides, -1, 2)
-        angles[:, :, self._compliant] = own[..., 0]
-        rates[:, :, self._compliant] = own[..., 1]
+        self.joint_states.put(states, angles, rates)
         return angles, rates
 
     def flow(self, x0: npt.ArrayLike, t0: float, t1: float) -> FloatArray:
@@ -275,14 +261,14 @@ class TreeModel(BirdModel):
         self._refuse_upright(times, states)
         space = self.body_in_space(states)
         angles, rates = (
-            each[:, : self._sides].reshape(len(states), -1)
+            each[:, : self.joint_states.sides].reshape(len(states), -1)
             for each in self.motion_of_both(times, states)
         )
         twist = self._twist_through_air(times, space)
         motion = Motion(twist, gravity_along_body(space, self.bird.gravity), angles, rates)
         a = self.tree.accelerations(times, motion)
         found = np.empty(states.shape)
-        first = self._first_joint
+        first = self.joint_states.first
         if first:
             of_body = np.zeros((len(states), 6))
             of_body[:, self.motion.directions] = a[:, : self.motion.directions.size]
@@ -367,10 +353,9 @@ class TreeModel(BirdModel):
         """A guess (K, n) of a limit cycle at `times` (K,) s: `driven_state` at each."""
         guess = np.empty((times.size, len(self.state_names)))
         if self.motion is not HELD:
-            guess[:, : self._first_joint] = self._trim
+            guess[:, : self.joint_states.first] = self._trim
         angles, rates, _ = self.drivers_of_both(times)
-        moving = np.stack([angles, rates], axis=-1)[:, : self._sides, self._compliant]
-        guess[:, self._first_joint :] = moving.reshape(times.size, -1)
+        guess[:, self.joint_states.first :] = self.joint_states.taken(angles, rates)
         return guess
 
     @cached_property
@@ -386,26 +371,8 @@ class TreeModel(BirdModel):
     def _follow_drivers(self) -> BoolArray:
         """Which of the tree's coordinates (n,) follow a driver."""
         body = np.full(self._coordinates_of_body.size, self.motion is HELD)
-        joints = ~self._compliant
+        joints = ~self.joint_states.compliant
         return np.concatenate([body, joints, joints])
-
-    def _refuse_undetermined(self) -> None:
-        """Raise `TopologyError` if the mass matrix at t = 0 leaves a compliant joint at will."""
-        if not self._compliant.any():
-            return
-        angles, _, _ = self.drivers_of_both(np.zeros(1))
-        body = self._coordinates_of_body
-        q = np.concatenate([np.zeros(body.size), angles.ravel()])[None, :]
-        (mass,), _ = self.tree.inertia.at(q, np.zeros_like(q))
-        free = ~self.prescribed
-        names = (*(COORDINATES[b] for b in body), *self.bird.angle_names, *self.bird.angle_names)
-        with overflow_told(self.bird, "the mass matrix"):
-            refuse_undetermined(
-                self.bird,
-                mass[np.ix_(free, free)],
-                typical_inertias(self.bird, body, free.size)[free],
-                [name for name, is_free in zip(names, free, strict=True) if is_free],
-            )
 
     def coordinates(self, t: float, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Coordinates and velocities (c,) of the tree at the origin, of state x (n,) at t (s)."""
@@ -429,9 +396,9 @@ class TreeModel(BirdModel):
             )
         body = self._coordinates_of_body
         space = space_state(whole(q[: body.size], body), whole(v[: body.size], body))
-        moving = np.stack([q[self._joints], v[self._joints]], axis=-1).reshape(2, -1, 2)
-        joints = moving[: self._sides, self._compliant]
-        return np.concatenate([space[self.motion.indices], joints.ravel()])
+        angles, rates = (each[self._joints].reshape(1, len(SIDES), -1) for each in (q, v))
+        (joints,) = self.joint_states.taken(angles, rates)
+        return np.concatenate([space[self.motion.indices], joints])
 
     def _forces(self, t: float, q: FloatArray, v: FloatArray) -> FloatArray:
         """Generalised forces (n,) of air, springs and dampers: Exudyn's user function."""

@@ -50,7 +50,8 @@ class BirdModel(ABC):
     ) -> None:
         self.bird = bird
         self.wing = wing_arrays(bird.side("right"))
-        self.left_wing = self.wing if bird.is_symmetric else wing_arrays(bird.side("left"))
+        self.has_like_wings = bird.is_symmetric
+        self.left_wing = self.wing if self.has_like_wings else wing_arrays(bird.side("left"))
         self.airframe = airframe(bird)
         self._gust = gust
         self.period: float | None = bird.period
@@ -85,7 +86,7 @@ class BirdModel(ABC):
     @property
     def is_mirrored(self) -> bool:
         """Whether the left wing is the mirror image of the right one in every state."""
-        return self.bird.is_symmetric and self.motion.is_symmetric
+        return self.has_like_wings and self.motion.is_symmetric
 
     @property
     def mirror(self) -> Mirror:
@@ -164,7 +165,7 @@ class BirdModel(ABC):
         of_both = np.empty((3, times.size, 2, self.wing.offset.size))
         of_both[:, :, 0] = driver_motion_along(self.wing, times)
         of_both[:, :, 1] = of_both[:, :, 0]
-        if not self.bird.is_symmetric:
+        if not self.has_like_wings:
             of_both[:, :, 1] = driver_motion_along(self.left_wing, times)
         angles, rates, accelerations = of_both
         return angles, rates, accelerations

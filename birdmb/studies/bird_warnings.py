@@ -12,11 +12,11 @@ from birdmb.errors import StateError
 from birdmb.models.natural_oscillation import (
     NaturalOscillation,
     hinge_oscillations,
-    joint_oscillation,
+    oscillations_of,
 )
 from birdmb.models.rigid import RigidModel
 from birdmb.studies.refinement import LARGEST_CHANGE, LoadChange
-from birdmb.topology import Bird, Joint
+from birdmb.topology import SIDES, Bird, Joint
 from birdmb.wing.outline import wing_outline
 
 _PHASES = 24
@@ -36,26 +36,26 @@ def _on_surroundings(bird: Bird) -> Iterator[str]:
 
 
 def _on_joints(bird: Bird) -> Iterator[str]:
-    if all(joint.amplitude == 0 for joint in bird.joints):
+    if all(joint.on(side).amplitude == 0 for joint in bird.joints for side in SIDES):
         yield "no joint has an amplitude: the bird glides, and its limit cycle is a steady flight."
     for joint in bird.joints:
         if joint.mode == "compliant":
-            yield from _on_compliant(bird, joint)
+            for name, free in oscillations_of(bird, joint).items():
+                yield from _on_compliant(bird, joint, name, free)
         elif joint.stiffness is not None or joint.damping is not None:
             yield f"{joint.name} is prescribed: its stiffness and damping are not used."
 
 
-def _on_compliant(bird: Bird, joint: Joint) -> Iterator[str]:
-    free = joint_oscillation(bird, joint)
+def _on_compliant(bird: Bird, joint: Joint, name: str, free: NaturalOscillation) -> Iterator[str]:
     if free.inertia == 0:
         yield (
-            f"{joint.name} is compliant, but moves no mass: its acceleration is not determined. "
+            f"{name} is compliant, but moves no mass: its acceleration is not determined. "
             f"Give segments.{joint.segment} a mass or an inertia about the joint's axis."
         )
         return
     if free.stiffness == 0:
-        yield f"{joint.name} is compliant with stiffness 0: nothing pulls it towards its driver."
-    yield from _on_resonance(bird, joint.name, free)
+        yield f"{name} is compliant with stiffness 0: nothing pulls it towards its driver."
+    yield from _on_resonance(bird, name, free)
 
 
 def _on_hinges(bird: Bird) -> Iterator[str]:
@@ -76,14 +76,15 @@ def _on_resonance(bird: Bird, name: str, free: NaturalOscillation) -> Iterator[s
 
 def _on_wing(bird: Bird) -> Iterator[str]:
     """On the wing as driven: what the models refuse, else what they fly with."""
-    model = RigidModel(bird)
     phases = np.arange(_PHASES) / _PHASES
-    try:
-        model.wing_at(phases * bird.period)
-    except StateError as error:
-        yield f"no flight with the wings as driven. {error}"
-        return
-    yield from _on_overlap(bird, model, phases)
+    for side in SIDES[:1] if bird.is_symmetric else SIDES:
+        model = RigidModel(bird.side(side))
+        try:
+            model.wing_at(phases * bird.period)
+        except StateError as error:
+            yield f"no flight with the wings as driven. {error}"
+            return
+        yield from _on_overlap(bird, model, phases)
 
 
 def _on_overlap(bird: Bird, model: RigidModel, phases: FloatArray) -> Iterator[str]:

@@ -39,13 +39,14 @@ class LoadChange:
 
 
 def load_change(bird: Bird) -> LoadChange:
-    """Compare the loads of a beat at the mean trim motion on two numbers of elements.
+    """Compare the loads of a beat at mean trim on two numbers of elements, of the right wing.
 
     Raises:
         StateError: the wing has no loads somewhere in the beat.
     """
     own = bird.wing.resolved_discretisation.elements
     other = 2 * own if own <= _MOST_DOUBLED else own // 2
+    bird = bird.side("right")
     model = RigidModel(bird)
     state = model.initial_guess()
     changed = RigidModel(bird.with_values({"wing.discretisation.elements": other}))

@@ -13,7 +13,7 @@ from birdmb.models import BirdModel, RigidModel
 from birdmb.studies.cycles import ModelFactory
 from birdmb.topology import Bird
 from birdmb.topology.parts import BONES
-from birdmb.topology.unused import SPRING, unused_values
+from birdmb.topology.unused import SPRING, own_names, unused_values
 
 # So many birds are looked at, before a value that none of them uses is refused.
 _LOOKED_AT = 200
@@ -70,7 +70,9 @@ def ignored_values(bird: Bird, model: ModelFactory) -> dict[str, str]:
         "the rigid model has no springs, all joints follow their drivers; take the multibody model"
     )
     mass = "the wings of the rigid model have no mass; take the multibody model"
-    names |= {f"{joint.name}.{key}": springs for joint in bird.joints for key in (*SPRING, "mode")}
+    for joint in bird.joints:
+        names |= {f"{name}.{key}": springs for name in own_names(joint) for key in SPRING}
+        names[f"{joint.name}.mode"] = springs
     names |= {
         f"segments.{bone}.{key}": mass
         for bone in BONES

@@ -89,9 +89,12 @@ def scale_bird(like: Bird, mass: float) -> ScaledBird:
             ("cubic_stiffness", torque),
             ("damping", torque * slower),
         ):
-            own = getattr(joint, key)
-            if joint.mode == "compliant" and own is not None:
-                values[f"{joint.name}.{key}"] = own * factor
+            if joint.mode != "compliant":
+                continue
+            for place, part in (("", joint), (".right", joint.right), (".left", joint.left)):
+                own = getattr(part, key, None)
+                if own is not None:
+                    values[f"{joint.name}{place}.{key}"] = own * factor
     for feather in like.feathers:
         if feather.hinge is not None:
             place, turning = f"feathers.{feather.name}.hinge", heavier * feathers

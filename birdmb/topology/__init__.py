@@ -2,6 +2,7 @@
 
 from birdmb.topology.airframe import Apex, Drag, Tail
 from birdmb.topology.bird import Bird, Segments
+from birdmb.topology.joints import SIDES, Joint, JointSide
 from birdmb.topology.loading import load_bird
 from birdmb.topology.parts import (
     BONES,
@@ -13,7 +14,6 @@ from birdmb.topology.parts import (
     Feather,
     Gait,
     Hinge,
-    Joint,
     Root,
     Segment,
     Wing,
@@ -23,6 +23,7 @@ from birdmb.topology.values import parse_assignment
 __all__ = [
     "BONES",
     "PRESETS",
+    "SIDES",
     "Air",
     "Apex",
     "Bird",
@@ -34,6 +35,7 @@ __all__ = [
     "Gait",
     "Hinge",
     "Joint",
+    "JointSide",
     "Root",
     "Segment",
     "Segments",

@@ -7,12 +7,13 @@ import json
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from itertools import pairwise
-from typing import Any, Literal, Self
+from typing import Any, Self
 
 from pydantic import Field, field_validator, model_validator
 
 from birdmb.errors import TopologyError
 from birdmb.topology.airframe import Drag, Tail
+from birdmb.topology.joints import Joint, Side
 from birdmb.topology.messages import Location, nearest, problem, shown, validated
 from birdmb.topology.names import Label
 from birdmb.topology.numbers import Gravity
@@ -22,7 +23,6 @@ from birdmb.topology.parts import (
     Body,
     Feather,
     Gait,
-    Joint,
     Part,
     Segment,
     Wing,
@@ -112,11 +112,13 @@ class Bird(Part):
     @property
     def is_symmetric(self) -> bool:
         """Whether all joints have the same values on both sides."""
-        return True
+        return all(joint.is_symmetric for joint in self.joints)
 
-    def side(self, name: Literal["right", "left"]) -> Self:  # noqa: ARG002
-        """The symmetric bird whose joints have the values of one side."""
-        return self
+    def side(self, side: Side) -> Bird:
+        """Return the symmetric bird whose joints have the values of one side on both."""
+        if not any(joint.right or joint.left for joint in self.joints):
+            return self
+        return self.model_copy(update={"joints": tuple(joint.on(side) for joint in self.joints)})
 
     @property
     def joint_names(self) -> tuple[str, ...]:

@@ -19,11 +19,9 @@ from pydantic import (
     ConfigDict,
     Discriminator,
     Field,
-    StrictBool,
     Tag,
     TypeAdapter,
     field_serializer,
-    field_validator,
     model_validator,
 )
 from pydantic_core import PydanticCustomError
@@ -38,7 +36,6 @@ from birdmb.topology.numbers import (
     Coefficient,
     Coordinate,
     Density,
-    Direction,
     Distance,
     Elements,
     Fraction,
@@ -60,7 +57,7 @@ BONES: tuple[Bone, ...] = ("humerus", "forearm", "hand")  # from the shoulder ou
 
 Shares = tuple[tuple[str, float], ...]
 
-_NO_DIRECTION = 1e-100  # of its square little is left
+NO_DIRECTION = 1e-100  # of its square little is left
 _ALONG_THE_BONE = 1e-6  # rad; a right angle in degrees is none to the last bit
 
 
@@ -253,70 +250,6 @@ class Segment(Part):
         default_factory=lambda validated: (0.0, validated["length"] / 2, 0.0),
         description="centre of mass from the segment's root, [x, y, z] in m",
     )
-
-
-class Joint(Part):
-    """A one-axis joint at the root of the segment it carries.
-
-    The driver is q_d(t) = offset + amplitude sin(2 pi f t + phase). A prescribed joint follows it
-    exactly, a compliant one through a spring and a damper in series with it, whose torque is
-    -k (q - q_d) - k_3 (q - q_d)^3 - C (q' - q_d'), k another one below the driver if so given.
-    """
-
-    angles: ClassVar[tuple[str, ...]] = ("offset", "amplitude", "phase")
-
-    name: Label = Field(description='name of the joint, "place.motion" such as "shoulder.flap"')
-    segment: Bone = Field(description="segment that the joint carries")
-    axis: tuple[Direction, Direction, Direction] = Field(
-        description="direction of the axis, [x, y, z] in the parent's frame"
-    )
-    mode: Literal["prescribed", "compliant"] = Field(
-        default="prescribed", description="whether the joint follows its driver or a spring"
-    )
-    stiffness: Stiffness | None = Field(default=None, description="joint stiffness, N m/rad")
-    damping: Stiffness | None = Field(default=None, description="joint damping, N m s/rad")
-    cubic_stiffness: Stiffness = Field(
-        default=0.0, description="stiffening with the cube of the deflection, N m/rad^3"
-    )
-    stiffness_below: Stiffness | None = Field(
-        default=None,
-        description="stiffness where the joint is below its driver, N m/rad, if another than above",
-    )
-    offset: Angle = Field(default=0.0, description="mean angle; rad, degrees as offset_deg")
-    amplitude: Angle = Field(default=0.0, description="amplitude; rad, degrees as amplitude_deg")
-    phase: Angle = Field(default=0.0, description="phase at t = 0; rad, degrees as phase_deg")
-    twist: StrictBool = Field(
-        default=False, description="whether the angle grows along the segment from none at its root"
-    )
-
-    @field_validator("name")
-    @classmethod
-    def _place_and_motion(cls, name: str) -> str:
-        place, dot, motion = name.partition(".")
-        if not (
-            dot and all(p.replace("_", "").replace("-", "").isalnum() for p in (place, motion))
-        ):
-            raise problem(f'must read "<place>.<motion>", such as "wrist.sweep", not {shown(name)}')
-        return name
-
-    @field_validator("axis")
-    @classmethod
-    def _unit_axis(cls, axis: tuple[float, float, float]) -> tuple[float, float, float]:
-        length = math.hypot(*axis)
-        if length < _NO_DIRECTION:
-            given = ", ".join(f"{component:g}" for component in axis)
-            raise problem(f"[{given}] has no direction; for instance [0, 1, 0] is outwards")
-        if abs(length - 1) < 1e-12:  # so that an axis read back stays the same to the last bit
-            return axis
-        x, y, z = (component / length for component in axis)
-        return x, y, z
-
-    @model_validator(mode="after")
-    def _compliance_is_complete(self) -> Self:
-        for key in ("stiffness", "damping"):
-            if self.mode == "compliant" and getattr(self, key) is None:
-                raise problem(f"missing; a compliant joint needs a {key} of 0 or more", key)
-        return self
 
 
 _SHARES: TypeAdapter[dict[str, float]] = TypeAdapter(

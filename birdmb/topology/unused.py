@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from birdmb.topology.bird import Bird
-from birdmb.topology.parts import Joint
+from birdmb.topology.joints import SIDES, Joint
 
 SPRING = ("stiffness", "damping", "cubic_stiffness", "stiffness_below")
 
@@ -38,7 +38,16 @@ def unused_spring(joint: Joint) -> str:
 
 def _of_joint(joint: Joint) -> Iterator[tuple[str, str]]:
     if reason := unused_spring(joint):
-        yield from ((f"{joint.name}.{key}", reason) for key in SPRING)
-    if not joint.amplitude:
-        reason = f"{joint.name} is not driven, its amplitude is 0"
-        yield from ((f"{joint.name}.{key}", reason) for key in ("phase", "phase_deg"))
+        yield from ((f"{name}.{key}", reason) for name in own_names(joint) for key in SPRING)
+    still = {side: not joint.on(side).amplitude for side in SIDES}
+    places = [f"{joint.name}.{side}" for side in SIDES if still[side]]
+    if all(still.values()):
+        places.append(joint.name)
+    for name in places:
+        reason = f"{name} is not driven, its amplitude is 0"
+        yield from ((f"{name}.{key}", reason) for key in ("phase", "phase_deg"))
+
+
+def own_names(joint: Joint) -> tuple[str, ...]:
+    """Return the dotted names of a joint and of its sides, before the names of their values."""
+    return joint.name, *(f"{joint.name}.{side}" for side in SIDES)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from birdmb.errors import TopologyError
+from birdmb.topology.joints import SIDES, Joint, JointSide
 from birdmb.topology.messages import Location, nearest, shown
 from birdmb.topology.parts import Part, Wing
 
@@ -55,6 +56,9 @@ def _walk(part: Part, prefix: str, place: Location) -> Iterator[tuple[str, Locat
         elif isinstance(part, Wing) and key == "discretisation":
             yield name, here
             yield from _walk(part.resolved_discretisation, f"{name}.", here)
+        elif isinstance(part, Joint) and key in SIDES:
+            yield name, here
+            yield from _walk(child or JointSide(), f"{name}.", here)
         elif isinstance(child, Part):
             if type(part).model_fields[key].default is None:  # may be taken off as a whole
                 yield name, here
@@ -74,21 +78,33 @@ def place_of(name: str, known: Mapping[str, Location], owner: str) -> Location:
         TopologyError: there is no such name.
     """
     if name not in known:
+        # Names of one side are too like those of the joint to be told apart by their letters.
+        near = [k for k in known if of_a_side(name) or not of_a_side(k)]
         raise TopologyError(
-            f"{owner}: no value is called {shown(name)}; the nearest: {nearest(name, known)}"
+            f"{owner}: no value is called {shown(name)}; the nearest: {nearest(name, near)}"
         )
     return known[name]
 
 
 def value_at(document: Mapping[str, Any], place: Location) -> Any:
-    """The value at a place of a document; an angle also in the unit that is not written."""
+    """The value at a place of a document; an angle also in the unit that is not written.
+
+    One side of a joint has the joint's own value where it has none by itself.
+    """
     *parents, key = place
     table: Any = document
     for part in parents:
-        table = table[part]
+        table = {**table, **table.get(part, {})} if part in SIDES else table[part]
+    if key in SIDES and key not in table:
+        return None
     if key in table:
         return table[key]
     return math.degrees(table[_other_unit(key)])
+
+
+def of_a_side(name: str) -> bool:
+    """Whether a dotted name is of one side of a joint."""
+    return any(part in SIDES for part in name.split("."))
 
 
 def put_values(
@@ -128,8 +144,12 @@ def is_resolution(name: str) -> bool:
 
 def _free_if_sprung(joint: dict[str, Any], values: Mapping[str, Any]) -> None:
     """Make a joint compliant that was given a spring or a damper, unless its mode was given too."""
+    name = joint["name"]
     given = {
-        key for key in ("stiffness", "damping") if values.get(f"{joint['name']}.{key}") is not None
+        key
+        for key in ("stiffness", "damping")
+        for owner in (name, *(f"{name}.{side}" for side in SIDES))
+        if values.get(f"{owner}.{key}") is not None
     }
     if given and f"{joint['name']}.mode" not in values:
         joint["mode"] = "compliant"

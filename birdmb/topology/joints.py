@@ -1,0 +1,149 @@
+"""The joints of the wings as a topology file gives them, and what one side has for itself."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, ClassVar, Literal, Self
+
+from pydantic import (
+    Field,
+    SerializerFunctionWrapHandler,
+    StrictBool,
+    field_validator,
+    model_serializer,
+    model_validator,
+)
+
+from birdmb.topology.messages import problem, shown
+from birdmb.topology.names import Label
+from birdmb.topology.numbers import Angle, Direction, Stiffness
+from birdmb.topology.parts import NO_DIRECTION, Bone, Part
+
+Side = Literal["right", "left"]
+SIDES: tuple[Side, Side] = ("right", "left")
+
+
+class JointSide(Part):
+    """Driver, spring and damper of a joint on one side, where they are not those of both.
+
+    What is left out is as the joint itself says.
+    """
+
+    angles: ClassVar[tuple[str, ...]] = ("offset", "amplitude", "phase")
+
+    stiffness: Stiffness | None = Field(default=None, description="stiffness there, N m/rad")
+    damping: Stiffness | None = Field(default=None, description="damping there, N m s/rad")
+    cubic_stiffness: Stiffness | None = Field(
+        default=None, description="stiffening with the cube of the deflection there, N m/rad^3"
+    )
+    stiffness_below: Stiffness | None = Field(
+        default=None, description="stiffness there where the joint is below its driver, N m/rad"
+    )
+    offset: Angle | None = Field(
+        default=None, description="mean angle there; rad, degrees as offset_deg"
+    )
+    amplitude: Angle | None = Field(
+        default=None, description="amplitude there; rad, degrees as amplitude_deg"
+    )
+    phase: Angle | None = Field(
+        default=None, description="phase at t = 0 there; rad, degrees as phase_deg"
+    )
+
+    @property
+    def own(self) -> dict[str, float]:
+        """The values that are given."""
+        return {key: value for key, value in self if value is not None}
+
+
+class Joint(Part):
+    """A one-axis joint at the root of the segment it carries, one in each wing.
+
+    The driver is q_d(t) = offset + amplitude sin(2 pi f t + phase). A prescribed joint follows it
+    exactly, a compliant one through a spring and a damper in series with it, whose torque is
+    -k (q - q_d) - k_3 (q - q_d)^3 - C (q' - q_d'), k another one below the driver if so given.
+    Driver, spring and damper may be others on one side. The sense of rotation is mirrored.
+    """
+
+    angles: ClassVar[tuple[str, ...]] = ("offset", "amplitude", "phase")
+
+    name: Label = Field(description='name of the joint, "place.motion" such as "shoulder.flap"')
+    segment: Bone = Field(description="segment that the joint carries")
+    axis: tuple[Direction, Direction, Direction] = Field(
+        description="direction of the axis, [x, y, z] in the parent's frame"
+    )
+    mode: Literal["prescribed", "compliant"] = Field(
+        default="prescribed", description="whether the joint follows its driver or a spring"
+    )
+    stiffness: Stiffness | None = Field(default=None, description="joint stiffness, N m/rad")
+    damping: Stiffness | None = Field(default=None, description="joint damping, N m s/rad")
+    cubic_stiffness: Stiffness = Field(
+        default=0.0, description="stiffening with the cube of the deflection, N m/rad^3"
+    )
+    stiffness_below: Stiffness | None = Field(
+        default=None,
+        description="stiffness where the joint is below its driver, N m/rad, if another than above",
+    )
+    offset: Angle = Field(default=0.0, description="mean angle; rad, degrees as offset_deg")
+    amplitude: Angle = Field(default=0.0, description="amplitude; rad, degrees as amplitude_deg")
+    phase: Angle = Field(default=0.0, description="phase at t = 0; rad, degrees as phase_deg")
+    twist: StrictBool = Field(
+        default=False, description="whether the angle grows along the segment from none at its root"
+    )
+    right: JointSide | None = Field(
+        default=None, description="values of the right wing's joint alone, a table"
+    )
+    left: JointSide | None = Field(
+        default=None, description="values of the left wing's joint alone, a table"
+    )
+
+    @model_serializer(mode="wrap")
+    def _without_empty_sides(self, dump: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        # A bird whose sides are alike is the same value whether or not that was said.
+        table: dict[str, Any] = dump(self)
+        for side in SIDES:
+            if side in table:
+                given = table.pop(side) or {}
+                if own := {key: value for key, value in given.items() if value is not None}:
+                    table[side] = own
+        return table
+
+    @property
+    def is_symmetric(self) -> bool:
+        """Whether both sides have the same values."""
+        return not (self.right or self.left) or self.on("right") == self.on("left")
+
+    def on(self, side: Side) -> Joint:
+        """The joint with the values of one side on both."""
+        own: JointSide | None = getattr(self, side)
+        return self.model_copy(update={**(own.own if own else {}), "right": None, "left": None})
+
+    @field_validator("name")
+    @classmethod
+    def _place_and_motion(cls, name: str) -> str:
+        place, dot, motion = name.partition(".")
+        if not (
+            dot and all(p.replace("_", "").replace("-", "").isalnum() for p in (place, motion))
+        ):
+            raise problem(f'must read "<place>.<motion>", such as "wrist.sweep", not {shown(name)}')
+        return name
+
+    @field_validator("axis")
+    @classmethod
+    def _unit_axis(cls, axis: tuple[float, float, float]) -> tuple[float, float, float]:
+        length = math.hypot(*axis)
+        if length < NO_DIRECTION:
+            given = ", ".join(f"{component:g}" for component in axis)
+            raise problem(f"[{given}] has no direction; for instance [0, 1, 0] is outwards")
+        if abs(length - 1) < 1e-12:  # so that an axis read back stays the same to the last bit
+            return axis
+        x, y, z = (component / length for component in axis)
+        return x, y, z
+
+    @model_validator(mode="after")
+    def _compliance_is_complete(self) -> Self:
+        for key in ("stiffness", "damping"):
+            if self.mode == "compliant" and any(
+                getattr(self.on(side), key) is None for side in SIDES
+            ):
+                raise problem(f"missing; a compliant joint needs a {key} of 0 or more", key)
+        return self
