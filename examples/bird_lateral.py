@@ -36,10 +36,20 @@ VARIATIONS: dict[str, Mapping[str, float]] = {
 }
 
 
-def flown(bird: birdmb.Bird) -> birdmb.FlightCycle | None:
+FLAP = "shoulder.flap"
+STIFFNESSES = (100.0, 40.0, 20.0, 15.0, 10.0)  # N m/rad, of each shoulder
+DAMPING = 0.2  # N m s/rad
+STROKES = (0.0, 0.5, 1.0, 2.0)  # deg, by which the left wing's amplitude is larger
+
+Model = type[birdmb.RigidModel] | type[birdmb.MultibodyModel]
+
+
+def flown(
+    bird: birdmb.Bird, model: Model = birdmb.RigidModel, near: birdmb.FlightCycle | None = None
+) -> birdmb.FlightCycle | None:
     """The bird's limit cycle in space; `None` if there is none."""
     try:
-        return birdmb.find_limit_cycle(birdmb.RigidModel(bird, motion="free"))
+        return birdmb.find_limit_cycle(model(bird, motion="free"), near)
     except birdmb.BirdmbError:
         return None
 
@@ -64,9 +74,9 @@ def lateral(cycle: birdmb.FlightCycle) -> list[str]:
     return [described(found[n], cycle.period) if n in found else "" for n in MODES]
 
 
-def row(table: Table, name: str, bird: birdmb.Bird) -> None:
+def row(table: Table, name: str, bird: birdmb.Bird, model: Model = birdmb.RigidModel) -> None:
     """One flight."""
-    cycle = flown(bird)
+    cycle = flown(bird, model)
     if cycle is None:
         table.add_row(name, "no flight")
         return
@@ -102,6 +112,38 @@ def turning(bird: birdmb.Bird) -> Table:
         x = model.flow(x, beat * model.period, (beat + 1) * model.period)
     away = np.abs((x - turn.x0) / model.state_scale).max()
     table.add_row(f"100 s after a bank of 0.001 rad: {away:.1e} of typical sizes from the turn")
+    return table
+
+
+def shoulders(bird: birdmb.Bird) -> Table:
+    """Flights with wings of some mass, whose shoulders are sprung, each by itself."""
+    table = columns(f"Shoulders free of each other, {DAMPING:g} N m s/rad")
+    row(table, "wings without mass, prescribed", bird)
+    row(table, "with mass, prescribed", bird, birdmb.MultibodyModel)
+    for stiffness in STIFFNESSES:
+        sprung = bird.with_joint(FLAP, stiffness=stiffness, damping=DAMPING)
+        row(table, f"{stiffness:g} N m/rad", sprung, birdmb.MultibodyModel)
+    return table
+
+
+def uneven(bird: birdmb.Bird) -> Table:
+    """Flights with a larger stroke of the left wing, each from the one before."""
+    table = Table(
+        "left amplitude", "m/s", "bank, deg", "turn, deg/s", "|Λ| max",
+        title="One larger stroke",
+    )  # fmt: skip
+    cycle = None
+    for more in STROKES:
+        larger = bird.value(f"{FLAP}.amplitude_deg") + more
+        cycle = flown(bird.with_values({f"{FLAP}.left.amplitude_deg": larger}), near=cycle)
+        if cycle is None:
+            table.add_row(f"+ {more:g} deg", "no flight")
+            return table
+        degrees = np.degrees([cycle.mean_bank, cycle.turn_rate])
+        table.add_row(
+            f"+ {more:g} deg", f"{cycle.mean_speed:.2f}", f"{degrees[0]:.2f}",
+            f"{degrees[1]:.2f}", f"{abs(cycle.multipliers[0]):.4f}",
+        )  # fmt: skip
     return table
 
 
@@ -154,7 +196,8 @@ def main() -> None:
     for elements in (16, 32, 64):
         row(table, str(elements), tailed.with_values({"wing.discretisation": elements}))
     console.print(table)
-    console.print(turning(tailed))
+    for table in (shoulders(tailed), uneven(tailed), turning(tailed)):
+        console.print(table)
     parts = np.linspace(0.0, 1.0, 21)
     slow = moduli(tailed, parts)
     first = int(np.argmax(slow["spiral"] > 1.0))

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from birdmb.models.quantities import described_by
+from birdmb.topology.joints import split_side
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle, FlightMode
@@ -80,7 +81,8 @@ def taken_as_prescribed(model: BirdModel) -> list[str]:
     """Compliant joints and hinges that the model holds to their drivers."""
     free = [joint.name for joint in model.bird.compliant_joints]
     free += [feather.hinge_name for feather in model.bird.hinged_feathers]
-    return [name for name in free if name not in model.state_names]
+    moving = {split_side(state)[0] for state in model.state_names}
+    return [name for name in free if name not in moving]
 
 
 def mean_flight(cycle: FlightCycle) -> dict[str, float]:

@@ -15,6 +15,7 @@ from birdmb.orbits import load_branch
 from birdmb.orbits.collocation_search import FEWEST_INSTANTS
 from birdmb.orbits.trigonometric import along_path
 from birdmb.text import on_one_line
+from birdmb.topology.joints import split_side
 
 if TYPE_CHECKING:
     from birdmb.models.multibody import MultibodyModel
@@ -52,8 +53,12 @@ class SavedGuess:
         times = model.bird.period * np.arange(len(states)) / len(states)
         found = model.guess_along(times)
         for i, name in enumerate(model.state_names):
-            if name in self.state_names:
-                found[:, i] = states[:, self.state_names.index(name)]
+            # A flight in which both wings move alike tells of each of them.
+            angle, rate = name.removesuffix(".rate"), name.endswith(".rate")
+            of_both = split_side(angle)[0] + ".rate" * rate
+            known = [each for each in (name, of_both) if each in self.state_names]
+            if known:
+                found[:, i] = states[:, self.state_names.index(known[0])]
         return found if len(found) > 1 else found[0]
 
 

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure, SubFigure
 from birdmb._typing import FloatArray
 from birdmb.figures.style import DRIVER, LINE, beat_axis, label_beat, symbol, title_of
 from birdmb.text import in_figure
+from birdmb.topology.joints import split_side
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
@@ -56,19 +57,17 @@ def _label(name: str) -> str:
     """Name of a state; the place and the motion of a joint on lines of their own."""
     if not name.endswith(_RATE):
         return symbol(name).replace(".", "\n")
-    place, _, motion = name.removesuffix(_RATE).partition(".")
-    return in_figure(place) + "\n" + in_figure(f"{motion} rate")
+    joint, side = split_side(name.removesuffix(_RATE))
+    place, _, motion = joint.partition(".")
+    return in_figure(" ".join([place, side]).strip()) + "\n" + in_figure(f"{motion} rate")
 
 
 def _driver(cycle: FlightCycle, state: str) -> FloatArray | None:
     """Angle or rate (K,) that a compliant joint's driver has, `None` for states without one."""
-    bird = cycle.bird_model.bird
-    joint_name = state.removesuffix(_RATE)
-    if joint_name not in bird.joint_names:
+    model = cycle.bird_model
+    joint, side = split_side(state.removesuffix(_RATE))
+    if joint not in model.bird.joint_names:
         return None
-    joint = bird.joint(joint_name)
-    frequency = 2.0 * np.pi * bird.gait.frequency
-    argument = frequency * cycle.beat.times + joint.phase
-    if state.endswith(_RATE):
-        return np.asarray(frequency * joint.amplitude * np.cos(argument))
-    return np.asarray(joint.offset + joint.amplitude * np.sin(argument))
+    angles, rates, _ = model.drivers_of_both(cycle.beat.times)
+    drivers = rates if state.endswith(_RATE) else angles
+    return drivers[:, 1 if side == "left" else 0, model.bird.joint_names.index(joint)]

@@ -47,8 +47,9 @@ def flight_modes(cycle: LimitCycle, motion: Motion, mirror: Mirror) -> tuple[Fli
     The first states of the cycle are those of the body in `motion`; `mirror` makes a state its
     mirror image. What a mode shares with its mirror image is longitudinal, what changes sign is
     lateral. Lateral modes: of complex pairs
-    the one that oscillates fastest is the Dutch roll, another one the lateral phugoid; of two real
-    multipliers the smaller one is the roll mode, the larger one the spiral mode. Longitudinal
+    the one that oscillates fastest is the Dutch roll, another one the lateral phugoid; of two or
+    more real multipliers the largest one is the spiral mode, that of the others in which p has the
+    largest share the roll mode. Longitudinal
     modes: of complex pairs the one in which speed and pitch angle have the larger share is the
     phugoid, the other one the short period. Real longitudinal modes, those of joints and coupled
     ones have no names.
@@ -100,17 +101,19 @@ def _pairs(cycle: LimitCycle, chosen: list[int]) -> list[int]:
     return [k for k in chosen if cycle.multipliers[k].imag != 0.0]
 
 
-def _lateral(cycle: LimitCycle, _motion: Motion, chosen: list[int]) -> dict[int, str]:
+def _lateral(cycle: LimitCycle, motion: Motion, chosen: list[int]) -> dict[int, str]:
     oscillating = _pairs(cycle, chosen)
-    real = [k for k in chosen if k not in oscillating and cycle.multipliers[k].real > 0.0]
+    real = [k for k in chosen if k not in oscillating]
     names = {}
     if oscillating:
         fastest = max(_frequency(cycle, k) for k in oscillating)
         for k in oscillating:
             slower = _frequency(cycle, k) < fastest * (1.0 - 1e-9)
             names[k] = "lateral phugoid" if slower else "Dutch roll"
-    if len(real) == 2:
-        names |= dict(zip(real, ("spiral", "roll"), strict=True))
+    if len(real) > 1:
+        slow, *fast = real
+        rolling = cycle.participation[motion.states.index("p")]
+        names |= {slow: "spiral", max(fast, key=lambda k: float(rolling[k])): "roll"}
     return names
 
 

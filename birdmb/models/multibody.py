@@ -96,7 +96,9 @@ class MultibodyModel(TreeModel):
         """Paths (S, K, m) of the body along the flights of the rigid bird."""
         planar = rigid_flights(self.bird.side("right"), times)
         space = PLANAR.in_space(planar.reshape(-1, len(PLANAR.states)))
-        return space[:, self.motion.indices].reshape(len(planar), times.size, -1)
+        return space[:, self.motion.indices].reshape(
+            len(planar), times.size, self.joint_states.first
+        )
 
     def _steady(self, times: FloatArray) -> FloatArray:
         """Paths (S, K, m) of the body in steady flights, in space also in turns to both sides."""

@@ -38,6 +38,7 @@ TIP_AREA = 0.01
 LARGEST_ANGLE = float(np.radians(15.0))
 LARGEST_REDUCED_FREQUENCY = 0.2
 LARGEST_OVERLAP = 0.01
+_ALIKE = 1e-6  # rad
 LARGEST_TAIL_ANGLE = float(np.radians(5.0))
 
 
@@ -231,6 +232,8 @@ def assess_validity(
         )
         for wing, side in zip(wings, sides, strict=True)
     ]
+    if len(each) > 1 and _alike(*each):
+        each = [each[0].assign_attrs(side="")]
     data = max(each, key=_largest_angle)
     area = data["area"].values[:-1]
     span = stack.right.width[:-1].sum(axis=1)
@@ -272,6 +275,12 @@ def _worst_of_beat(
     time = float(cycle.beat.times[np.argmax(values)])
     phase = float(np.mod(time / cycle.period, 1.0))
     return float(values.max()), limit, time, phase, float(np.mean(values > limit))
+
+
+def _alike(right: xr.Dataset, left: xr.Dataset) -> bool:
+    """Whether both wings do the same but for what a search leaves."""
+    apart = right["effective_angle_of_attack"] - left["effective_angle_of_attack"]
+    return bool(np.abs(apart).max() < _ALIKE)
 
 
 def _largest_angle(data: xr.Dataset) -> float:

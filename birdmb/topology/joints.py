@@ -23,6 +23,14 @@ Side = Literal["right", "left"]
 SIDES: tuple[Side, Side] = ("right", "left")
 
 
+def split_side(name: str) -> tuple[str, str]:
+    """Return a name without the side it ends in, and that side; "" where it names none."""
+    for side in SIDES:
+        if name.endswith(f".{side}"):
+            return name.removesuffix(f".{side}"), side
+    return name, ""
+
+
 class JointSide(Part):
     """Driver, spring and damper of a joint on one side, where they are not those of both.
 
