@@ -11,6 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from birdmb.cli.results import growth, verdict_sentence
+from birdmb.quantities import BY_NAME, DISSIPATORS, IN_DEGREES, VALIDITIES
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from birdmb.studies import Validity
 
 _STYLES = {"stable": "bold green", "unstable": "bold red", "undecided": "bold yellow"}
-_IN_DEGREES = {"rad": "°", "rad/s": "°/s"}
 
 
 def print_report(console: Console, cycle: FlightCycle, validity: Validity) -> None:
@@ -66,7 +66,7 @@ def _orbit(cycle: FlightCycle) -> Table:
     table = table_of(title, "state", "value", "unit", "in degrees", numbers=(1, 3))
     units = cast("HasStateUnits", cycle.model).state_units
     for name, value, unit in zip(cycle.state_names, cycle.x0, units, strict=True):
-        degrees = f"{np.degrees(value):.2f} {_IN_DEGREES[unit]}" if unit in _IN_DEGREES else ""
+        degrees = f"{np.degrees(value):.2f} {IN_DEGREES[unit]}" if unit in IN_DEGREES else ""
         table.add_row(name, f"{value:.6f}", unit, degrees)
     return table
 
@@ -97,48 +97,31 @@ def _number(value: float) -> str:
 
 def _flight(cycle: FlightCycle, validity: Validity) -> Table:
     table = table_of("Flight, mean over a beat", "quantity", "value", "unit", "", numbers=(1,))
-    model = cycle.bird_model
-    rows = (
-        ("speed", f"{cycle.mean_speed:.3f}", "m/s", ""),
-        ("climb rate", f"{cycle.mean_climb_rate:+.3f}", "m/s", ""),
-        ("path angle", f"{np.degrees(cycle.path_angle):+.2f}", "°", ""),
-        *_turn(cycle, model),
-        ("power", f"{cycle.power:.3f}", "W", "to move the wings against the air"),
-        (
-            "  of feathers",
-            f"{cycle.feather_power:.3f}",
-            "W",
-            "the part that no joint or hinge delivers",
-        ),
-        ("potential power", f"{cycle.potential_power:.3f}", "W", "drawn from sinking"),
-        ("corrected power", f"{cycle.corrected_power:.3f}", "W", "the sum: as if level"),
-        *_losses(cycle),
-        ("cost of transport", f"{cycle.cost_of_transport:.4f}", "", "power / (weight x speed)"),
-        ("reduced frequency", f"{validity.reduced_frequency:.3f}", "", "pi f chord / speed"),
-        ("Strouhal number", f"{validity.strouhal_number:.3f}", "", "f x tip excursion / speed"),
-        (
-            "angle of attack",
-            f"{np.degrees(validity.largest_angle_of_attack):.1f}",
-            "°",
-            "largest effective one, but for the tip",
-        ),
-        *_tail_angle(validity),
-        ("energy imbalance", f"{cycle.energy_imbalance:.1e}", "", "a check: 0 if exact"),
-        *_method(cycle, model),
-    )
-    for row in rows:
+    in_space = not cycle.bird_model.motion.is_symmetric
+    # Where nothing else takes power, all of it goes to the lift's induced drag.
+    lost = any(cycle.dissipation[name] for name in DISSIPATORS if name != "lift")
+    rows: list[tuple[str, FlightCycle | Validity, str]] = [
+        *((name, cycle, "") for name in ("mean_speed", "mean_climb_rate", "path_angle")),
+        *((name, cycle, "") for name in ("mean_bank", "turn_rate") if in_space),
+        ("power", cycle, ""),
+        ("feather_power", cycle, "  "),
+        ("potential_power", cycle, ""),
+        ("corrected_power", cycle, ""),
+        *((f"lost_to_{name}", cycle, "  ") for name in DISSIPATORS if lost),
+        ("cost_of_transport", cycle, ""),
+        *((each.name, validity, "") for each in VALIDITIES),
+        ("energy_imbalance", cycle, ""),
+    ]
+    for name, owner, indent in rows:
+        quantity = BY_NAME[name]
+        value = quantity.of(owner)
+        if not np.isnan(value):
+            table.add_row(
+                indent + quantity.label, quantity.text(value), quantity.shown_unit, quantity.about
+            )
+    for row in _method(cycle, cycle.bird_model):
         table.add_row(*row)
     return table
-
-
-def _turn(cycle: FlightCycle, model: BirdModel) -> list[tuple[str, str, str, str]]:
-    """Bank and turn of a flight in space."""
-    if not model.motion.lateral.any():
-        return []
-    return [
-        ("bank", f"{np.degrees(cycle.mean_bank):+.2f}", "°", "right wing down positive"),
-        ("turn rate", f"{np.degrees(cycle.turn_rate):+.2f}", "°/s", "to the right positive"),
-    ]
 
 
 def _method(cycle: FlightCycle, model: BirdModel) -> list[tuple[str, str, str, str]]:
@@ -170,22 +153,6 @@ def _flown(model: BirdModel) -> str:
 def _steps(model: BirdModel) -> str:
     stiff = " of Radau IIA: stiff joints" if model.integration_method == "implicit" else ""
     return f"{model.steps_per_beat} steps a beat{stiff}"
-
-
-def _losses(cycle: FlightCycle) -> list[tuple[str, str, str, str]]:
-    """Where the power goes, unless all of it goes to the lift's induced drag."""
-    lost = cycle.dissipation
-    if not any(lost[name] for name in ("profile", "tail", "body")):
-        return []
-    return [
-        (f"  lost to {name}", f"{power:.3f}", "W", "its induced drag" if name == "lift" else "")
-        for name, power in lost.items()
-    ]
-
-
-def _tail_angle(validity: Validity) -> list[tuple[str, str, str, str]]:
-    angle = np.degrees(validity.largest_tail_angle)
-    return [] if np.isnan(angle) else [("angle of the tail", f"{angle:.1f}", "°", "largest")]
 
 
 def _joints(cycle: FlightCycle) -> Table:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from birdmb.models.quantities import described_by
+from birdmb.quantities import described_by, valid_by
 from birdmb.topology.joints import split_side
 
 if TYPE_CHECKING:
@@ -57,10 +57,7 @@ def result_object(cycle: FlightCycle, validity: Validity, model_name: str) -> di
         "driver_powers": cycle.driver_powers,
         "driver_work": {name: work._asdict() for name, work in cycle.driver_work.items()},
         "dissipation": cycle.dissipation,
-        "reduced_frequency": validity.reduced_frequency,
-        "strouhal_number": validity.strouhal_number,
-        "largest_angle_of_attack": validity.largest_angle_of_attack,
-        "largest_tail_angle": finite(validity.largest_tail_angle),
+        **{name: finite(value) for name, value in valid_by(validity).items()},
         "validity_warnings": list(validity.warnings),
     }
 

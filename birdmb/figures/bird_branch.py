@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from birdmb.figures.style import BIFURCATION_MARKERS, VERDICT_COLOURS
 from birdmb.orbits import Branch, BranchPoint
+from birdmb.quantities import BY_NAME
 from birdmb.studies.validity import LARGEST_ANGLE
 from birdmb.text import in_figure
 
@@ -51,9 +52,12 @@ def plot_bird_branch(branch: Branch) -> Figure:
     for verdict in dict.fromkeys(point.stability for point in branch.points):
         rows[0].plot([], [], "-", color=VERDICT_COLOURS[verdict], label=verdict)
     rows[0].legend(fontsize="small")
-    rows[0].set(ylabel="mean speed (m/s)", title=in_figure(str(branch.settings.get("bird", ""))))
+    rows[0].set(
+        ylabel=BY_NAME["mean_speed"].axis_label,
+        title=in_figure(str(branch.settings.get("bird", ""))),
+    )
     rows[1].set(ylabel="|Λ|")
-    rows[2].set_ylabel("largest effective angle\nof attack (deg)")
+    rows[2].set_ylabel("largest effective\n" + BY_NAME["largest_angle_of_attack"].axis_label)
     rows[2].set_xlabel(in_figure(branch.parameter_name))
     low, high = branch.parameters.min(), branch.parameters.max()
     if low > 0 and high > _WIDE * low:

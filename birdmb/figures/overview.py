@@ -13,9 +13,12 @@ from birdmb.figures.multipliers import draw_labelled_multipliers
 from birdmb.figures.states import draw_states
 from birdmb.figures.style import label_beat, title_of
 from birdmb.figures.wing import OBLIQUE, draw_wing_phases
+from birdmb.quantities import quantities
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
+
+_SHOWN = ("mean_speed", "mean_climb_rate", "power", "potential_power", "corrected_power", "period")
 
 
 def plot_overview(cycle: FlightCycle) -> Figure:
@@ -60,12 +63,7 @@ def _stability(cycle: FlightCycle) -> str:
 
 def _write_numbers(axes: Axes, cycle: FlightCycle) -> None:
     rows = {
-        "speed": f"{cycle.mean_speed:.2f} m/s",
-        "climb rate": f"{cycle.mean_climb_rate:+.2f} m/s",
-        "power of the wings": f"{cycle.power:.2f} W",
-        "power from sinking": f"{cycle.potential_power:.2f} W",
-        "power if level": f"{cycle.corrected_power:.2f} W",
-        "wingbeat": f"{cycle.period:.3g} s",
+        each.label: f"{each.text(each.of(cycle))} {each.shown_unit}" for each in quantities(_SHOWN)
     }
     axes.set_axis_off()
     for i, (name, value) in enumerate(rows.items()):

@@ -11,14 +11,10 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from birdmb.figures.style import LINE, STABLE_COLOUR, UNSTABLE_COLOUR
+from birdmb.quantities import quantities
 from birdmb.text import in_figure
 
-_ROWS = {
-    "mean_speed": "mean speed (m/s)",
-    "mean_climb_rate": "climb rate (m/s)",
-    "path_angle": "path angle (°)",
-    "power": "wing power (W)",
-}
+_ROWS = quantities(("mean_speed", "mean_climb_rate", "path_angle", "power"))
 
 
 def plot_performance(study: xr.Dataset) -> Figure:
@@ -30,15 +26,14 @@ def plot_performance(study: xr.Dataset) -> Figure:
     figure = Figure(figsize=(9, 5.6), layout="constrained")
     panels = figure.subplots(2, 2, sharex=True)
     parameter, valid = _parameter(study), study["warning"].values == ""
-    for axes, (name, label) in zip(panels.ravel(), _ROWS.items(), strict=True):
-        values = study[name].values
-        shown = np.degrees(values) if name == "path_angle" else values
+    for axes, quantity in zip(panels.ravel(), _ROWS, strict=True):
+        shown = np.array([quantity.shown(value) for value in study[quantity.name].values])
         axes.plot(study[parameter], shown, "-", color=LINE)
         for inside, face in ((valid, LINE), (~valid, "w")):
             axes.plot(study[parameter][inside], shown[inside], "o", **_marker(LINE, face))
-        if name in ("mean_climb_rate", "path_angle"):
+        if quantity.name in ("mean_climb_rate", "path_angle"):
             axes.axhline(0, color="0.7", lw=0.8, zorder=0)
-        axes.set_ylabel(label)
+        axes.set_ylabel(quantity.axis_label)
         axes.spines[["top", "right"]].set_visible(False)
     for axes in panels[-1]:
         axes.set_xlabel(_label(study))

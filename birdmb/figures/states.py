@@ -9,6 +9,7 @@ from matplotlib.figure import Figure, SubFigure
 
 from birdmb._typing import FloatArray
 from birdmb.figures.style import DRIVER, LINE, beat_axis, label_beat, symbol, title_of
+from birdmb.quantities import IN_DEGREES
 from birdmb.text import in_figure
 from birdmb.topology.joints import split_side
 
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
     from birdmb.orbits.problem import HasStateUnits
 
 _RATE = ".rate"
-_IN_DEGREES = {"rad": "°", "rad/s": "°/s"}
 # Angles beside their rates, u beside w.
 _ORDER_OF_BODY = ("u", "w", "theta", "q")
 
@@ -39,13 +39,13 @@ def draw_states(figure: Figure | SubFigure, cycle: FlightCycle) -> None:
     for name, ax in zip(names, axes, strict=True):
         at = cycle.state_names.index(name)
         unit = units[at]
-        scale = np.degrees(1.0) if unit in _IN_DEGREES else 1.0
+        scale = np.degrees(1.0) if unit in IN_DEGREES else 1.0
         beat_axis(ax, cycle)
         driver = _driver(cycle, name)
         if driver is not None:
             ax.plot(cycle.beat.times, scale * driver, "--", color=DRIVER, lw=1.2, label="driver")
         ax.plot(cycle.beat.times, scale * cycle.beat.states[:, at], color=LINE, label="state")
-        ax.set_ylabel(f"{_label(name)} ({_IN_DEGREES.get(unit, unit)})")
+        ax.set_ylabel(f"{_label(name)} ({IN_DEGREES.get(unit, unit)})")
         if driver is not None and not name.endswith(_RATE):
             ax.legend(frameon=False, fontsize="small", loc="best", handlelength=1.8)
     for ax in axes[-2:]:

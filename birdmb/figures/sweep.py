@@ -14,6 +14,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
 from birdmb.figures.style import LINE, STABLE_COLOUR, UNSTABLE_COLOUR
+from birdmb.quantities import BY_NAME
 from birdmb.studies.sweeps.errors import SweepError
 from birdmb.studies.sweeps.verdicts import verdict_lines
 from birdmb.text import in_figure
@@ -26,13 +27,7 @@ OVERVIEW = (
     "power",
     "cost_of_transport",
 )
-_LABELS = {
-    "largest_modulus": "|Λ|max",
-    "time_constant": "time constant (s)",
-    "power": "wing power (W)",
-    "mean_climb_rate": "climb rate (m/s)",
-    "mean_speed": "mean speed (m/s)",
-}
+_LABELS = {"largest_modulus": "|Λ|max", "time_constant": "time constant (s)"}
 _UNITS = {
     "stiffness": "N m/rad",
     "damping": "N m s/rad",
@@ -143,9 +138,15 @@ def _places(axes: Axes, along: Literal["x", "y"], coordinate: xr.DataArray) -> n
 
 
 def _quantity_label(study: xr.Dataset, name: str) -> str:
+    if name in _LABELS:
+        return _LABELS[name]
+    if name in BY_NAME:
+        quantity = BY_NAME[name]
+        # The values drawn are those of the dataset.
+        return f"{quantity.label} ({quantity.unit})" if quantity.unit != "1" else quantity.label
     units = study[name].attrs.get("units", "s" if name == "seconds" else "1")
     plain = in_figure(name.replace("_", " "))
-    return _LABELS.get(name, plain if units == "1" else f"{plain} ({units})")
+    return plain if units == "1" else f"{plain} ({units})"
 
 
 def _draw_lines(axes: Axes, study: xr.Dataset, name: str) -> None:

@@ -15,11 +15,10 @@ from birdmb.errors import ArgumentError
 from birdmb.models.beat import Beat
 from birdmb.models.energy import Work, work_by_sign
 from birdmb.models.flight_modes import FlightMode, flight_modes
-from birdmb.models.loads import DISSIPATORS
 from birdmb.models.motion import HELD, SPACE_STATES, heading_rate, heading_velocity
-from birdmb.models.quantities import described_by
 from birdmb.models.stepped_cycle import SteppedCycle
 from birdmb.models.wing_model import STEPS_PER_BEAT
+from birdmb.quantities import DISSIPATORS, described_by
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -11,7 +11,6 @@ from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.airframe import Airframe
 from birdmb.models.loads_kernel import StackedLoads, StackedWing
 
-DISSIPATORS = ("lift", "profile", "tail", "body")
 _WHOLE = tuple(name for name in StackedLoads._fields if name not in {"right", "left"})
 
 

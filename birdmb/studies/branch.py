@@ -13,7 +13,6 @@ import numpy as np
 from birdmb._typing import FloatArray
 from birdmb.errors import ArgumentError, BirdmbError, StateError, TopologyError
 from birdmb.models import FlightCycle, MultibodyModel
-from birdmb.models.quantities import quantities
 from birdmb.models.wing_model import BirdModel
 from birdmb.orbits import (
     Bifurcation,
@@ -24,6 +23,7 @@ from birdmb.orbits import (
     continue_branch,
 )
 from birdmb.orbits.search import TOLERANCE, SearchMethod
+from birdmb.quantities import Quantity, quantities
 from birdmb.studies.relevance import check_relevant
 from birdmb.studies.validity import Validity, assess_validity
 from birdmb.topology import Bird
@@ -35,14 +35,13 @@ _SAMPLES = 9
 _DEFAULT_STEPS = Steps()
 
 _RECORDED = quantities(("mean_speed", "mean_climb_rate", "power", "mean_pitch"))
+_VALID = quantities(("largest_angle_of_attack", "reduced_frequency"))
 _CHECKED = quantities(("integration_error",))
 OBSERVABLE_UNITS: Mapping[str, str] = {
     **{each.name: each.unit for each in _RECORDED},
     "highest_flap": "rad",
     "lowest_flap": "rad",
-    "largest_angle_of_attack": "rad",
-    "reduced_frequency": "1",
-    **{each.name: each.unit for each in _CHECKED},
+    **{each.name: each.unit for each in (*_VALID, *_CHECKED)},
 }
 
 
@@ -225,10 +224,13 @@ def flight_observables(bird: Bird) -> dict[str, Callable[[LimitCycle], float]]:
         found["highest_flap"] = lambda cycle: float(_angles(cycle, joint).max())
         found["lowest_flap"] = lambda cycle: float(_angles(cycle, joint).min())
     validity = _LastValidity()
-    found["largest_angle_of_attack"] = lambda cycle: validity(cycle).largest_angle_of_attack
-    found["reduced_frequency"] = lambda cycle: validity(cycle).reduced_frequency
+    found |= {each.name: _of_validity(validity, each) for each in _VALID}
     found |= {each.name: each.of for each in _CHECKED}
     return cast("dict[str, Callable[[LimitCycle], float]]", found)
+
+
+def _of_validity(validity: _LastValidity, quantity: Quantity) -> Callable[[FlightCycle], float]:
+    return lambda cycle: quantity.of(validity(cycle))
 
 
 class _LastValidity:

@@ -10,7 +10,7 @@ import xarray as xr
 
 from birdmb.errors import BirdmbError
 from birdmb.models import FlightCycle, RigidModel
-from birdmb.models.quantities import quantities
+from birdmb.quantities import quantities
 from birdmb.studies.cycles import ModelFactory, WarmCycles
 from birdmb.studies.relevance import check_relevant
 from birdmb.studies.validity import assess_validity

@@ -260,7 +260,7 @@ def test_maps_show_failures_and_quantities(inline):
     figure = inline.plot()
     assert [axes.get_ylabel() for axes in figure.axes[6:]] == [
         "|Λ|max",
-        "mean speed (m/s)",
+        "speed (m/s)",
         "climb rate (m/s)",
         "time constant (s)",
         "wing power (W)",

@@ -21,7 +21,7 @@ from birdmb.studies.sweeps.tasks import Outcome
 from birdmb.text import on_one_line
 
 APPLICATION = 0x62697264  # "bird": tells a study from any other SQLite file
-FORMAT = 5
+FORMAT = 6
 COLUMNS = "place, parameters, status, reason, start, result, seconds, finished, run"
 _IDENTITY = {"birdmb", "fingerprint", "bird", "model", "search", "trim", "keep_to_sheet"}
 

@@ -14,11 +14,11 @@ import numpy as np
 
 from birdmb.errors import BirdmbError, OrbitError, StateError
 from birdmb.models import FlightCycle
-from birdmb.models.quantities import described_by
 from birdmb.models.wing_model import BirdModel
 from birdmb.orbits import Model, NotSmoothError, find_limit_cycle
 from birdmb.orbits.collocation import FIRST_NODES
 from birdmb.orbits.problem import HasGuessedPath, HasInitialGuess, HasRates
+from birdmb.quantities import described_by, valid_by
 from birdmb.studies.cycles import ModelFactory, path_for_search, shot_near
 from birdmb.studies.sweeps.sensitivity import sensitivities
 from birdmb.studies.sweeps.settings import Trimming
@@ -145,7 +145,7 @@ def described(cycle: FlightCycle) -> dict[str, Any]:
     validity = assess_validity(cycle)
     numbers = {
         **described_by(cycle),
-        "largest_tail_angle": validity.largest_tail_angle,
+        **valid_by(validity),
         "iterations": len(cycle.iterations) - 1,
     }
     collocated = cycle.method == "collocation"

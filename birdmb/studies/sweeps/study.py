@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 import xarray as xr
 
-from birdmb.models.quantities import QUANTITIES
+from birdmb.quantities import BY_NAME, Quantity
 from birdmb.studies.sweeps.contents import Contents
 from birdmb.studies.sweeps.errors import SweepError
 from birdmb.studies.sweeps.grid import Grid, Place, Value
@@ -25,8 +25,12 @@ from birdmb.topology import Bird
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_NUMBERS = {quantity.name: (quantity.unit, quantity.about) for quantity in QUANTITIES} | {
-    "largest_tail_angle": ("rad", "largest angle of attack of the tail"),
+
+def _long_name(quantity: Quantity) -> str:
+    return f"{quantity.label}, {quantity.about}" if quantity.about else quantity.label
+
+
+_NUMBERS = {each.name: (each.unit, _long_name(each)) for each in BY_NAME.values()} | {
     "iterations": ("1", "steps of the search"),
     "nodes": ("1", "nodes of a collocated orbit"),
     "steps_per_beat": ("1", "integration steps per wingbeat of a shot orbit"),
