@@ -87,7 +87,7 @@ def _found(
 
 
 def _table(cycles: list[FlightCycle], validity: list[Validity]) -> Table:
-    in_space = cycles[0].bird_model.motion.lateral.any()
+    in_space = cycles[0].model.motion.lateral.any()
     table = table_of(
         "Limit cycles, means over a beat",
         "no.", "speed, m/s", "climb", "pitch, °", *(["bank, °"] if in_space else []),

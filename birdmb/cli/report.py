@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 from rich import box
@@ -16,7 +16,6 @@ from birdmb.quantities import BY_NAME, DISSIPATORS, IN_DEGREES, VALIDITIES
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
     from birdmb.models.wing_model import BirdModel
-    from birdmb.orbits.problem import HasStateUnits
     from birdmb.studies import Validity
 
 _STYLES = {"stable": "bold green", "unstable": "bold red", "undecided": "bold yellow"}
@@ -64,7 +63,7 @@ def _orbit(cycle: FlightCycle) -> Table:
     )
     title = f"Orbit at t = {cycle.start_time:g} s, {known}"
     table = table_of(title, "state", "value", "unit", "in degrees", numbers=(1, 3))
-    units = cast("HasStateUnits", cycle.model).state_units
+    units = cycle.model.state_units
     for name, value, unit in zip(cycle.state_names, cycle.x0, units, strict=True):
         degrees = f"{np.degrees(value):.2f} {IN_DEGREES[unit]}" if unit in IN_DEGREES else ""
         table.add_row(name, f"{value:.6f}", unit, degrees)
@@ -73,7 +72,7 @@ def _orbit(cycle: FlightCycle) -> Table:
 
 def _multipliers(cycle: FlightCycle) -> Table:
     columns = ["Re", "Im", "modulus", "error", "a disturbance"]
-    in_space = cast("BirdModel", cycle.model).motion.lateral.any()
+    in_space = not cycle.model.motion.is_symmetric
     if in_space:
         columns.append("mode")
     table = table_of("Floquet multipliers", *columns, numbers=(0, 1, 2, 3))
@@ -97,7 +96,7 @@ def _number(value: float) -> str:
 
 def _flight(cycle: FlightCycle, validity: Validity) -> Table:
     table = table_of("Flight, mean over a beat", "quantity", "value", "unit", "", numbers=(1,))
-    in_space = not cycle.bird_model.motion.is_symmetric
+    in_space = not cycle.model.motion.is_symmetric
     # Where nothing else takes power, all of it goes to the lift's induced drag.
     lost = any(cycle.dissipation[name] for name in DISSIPATORS if name != "lift")
     rows: list[tuple[str, FlightCycle | Validity, str]] = [
@@ -119,7 +118,7 @@ def _flight(cycle: FlightCycle, validity: Validity) -> Table:
             table.add_row(
                 indent + quantity.label, quantity.text(value), quantity.shown_unit, quantity.about
             )
-    for row in _method(cycle, cycle.bird_model):
+    for row in _method(cycle, cycle.model):
         table.add_row(*row)
     return table
 

@@ -25,7 +25,7 @@ def finite(value: float) -> float | None:
 
 def result_object(cycle: FlightCycle, validity: Validity, model_name: str) -> dict[str, object]:
     """What `birdmb cycle --json` prints, in SI units and rad: numbers, texts, lists and objects."""
-    model = cycle.bird_model
+    model = cycle.model
     bird = model.bird
     return {
         "bird": bird.name,

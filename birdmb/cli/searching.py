@@ -238,8 +238,7 @@ def _again(
 def _cycle(
     model: RigidModel | MultibodyModel, start: Any, search: Search, progress: Progress
 ) -> FlightCycle:
-    cycle = find_limit_cycle(model, start, callback=progress.iteration, **search.options)
-    return cast("FlightCycle", cycle)
+    return find_limit_cycle(model, start, callback=progress.iteration, **search.options)
 
 
 def other_flights(

@@ -39,7 +39,7 @@ def run(
         )
         cycle = found.cycle
         warnings = assess_validity(cycle).warnings
-        held = taken_as_prescribed(cycle.bird_model)
+        held = taken_as_prescribed(cycle.model)
     if held:
         progress.line(
             f"The {model} model takes {', '.join(held)} as prescribed: springs and dampers are not "

@@ -41,7 +41,7 @@ def draw_loads(rows: Sequence[Axes], cycle: FlightCycle) -> None:
         "lift $-F_z$ (N)": -beat.force[:, 2],
         "$M_y$ (N m)": beat.moment[:, 1],
     }
-    model = cycle.bird_model
+    model = cycle.model
     weight = model.mass * model.bird.gravity
     rows[1].axhline(weight, color="0.35", ls=":", lw=1.2, label=f"weight {weight:.3g} N")
     for axes, (name, values) in zip(rows, curves.items(), strict=True):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure, SubFigure
@@ -15,7 +15,6 @@ from birdmb.topology.joints import split_side
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
-    from birdmb.orbits.problem import HasStateUnits
 
 _RATE = ".rate"
 # Angles beside their rates, u beside w.
@@ -33,7 +32,7 @@ def plot_states(cycle: FlightCycle) -> Figure:
 
 def draw_states(figure: Figure | SubFigure, cycle: FlightCycle) -> None:
     """Draw the states into a figure, in two columns."""
-    units = cast("HasStateUnits", cycle.model).state_units
+    units = cycle.model.state_units
     names = [*_ORDER_OF_BODY, *(n for n in cycle.state_names if n not in _ORDER_OF_BODY)]
     axes = figure.subplots(len(names) // 2, 2, sharex=True).ravel()
     for name, ax in zip(names, axes, strict=True):
@@ -64,7 +63,7 @@ def _label(name: str) -> str:
 
 def _driver(cycle: FlightCycle, state: str) -> FloatArray | None:
     """Angle or rate (K,) that a compliant joint's driver has, `None` for states without one."""
-    model = cycle.bird_model
+    model = cycle.model
     joint, side = split_side(state.removesuffix(_RATE))
     if joint not in model.bird.joint_names:
         return None

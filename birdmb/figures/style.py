@@ -33,7 +33,7 @@ _SYMBOLS = {"theta": "θ"}
 
 def title_of(cycle: FlightCycle) -> str:
     """Name of the bird as it is written in a figure."""
-    return in_figure(cycle.bird_model.bird.name)
+    return in_figure(cycle.model.bird.name)
 
 
 def symbol(name: str) -> str:

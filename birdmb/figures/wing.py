@@ -120,7 +120,7 @@ def draw_wing_phases(figure: Figure | SubFigure, cycle: FlightCycle, views: Sequ
 
 
 def _poses(cycle: FlightCycle) -> list[Pose]:
-    model = cycle.bird_model
+    model = cycle.model
     discretisation = model.bird.wing.resolved_discretisation
     times = cycle.start_time + np.array(_PHASES) * cycle.period
     poses = []

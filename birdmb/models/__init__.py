@@ -1,5 +1,7 @@
 """Models of a bird in flight: each turns a bird into a flow of named states."""
 
+from typing import TypeAlias
+
 from birdmb.models.beat import Beat
 from birdmb.models.energy import Work
 from birdmb.models.flight import Flight
@@ -11,6 +13,9 @@ from birdmb.models.multibody import MultibodyModel
 from birdmb.models.rigid import RigidModel
 from birdmb.models.wing_model import BirdModel
 
+FlightModel: TypeAlias = RigidModel | MultibodyModel
+"""A model of a bird whose limit cycles are flights."""
+
 __all__ = [
     "Beat",
     "BirdModel",
@@ -18,6 +23,7 @@ __all__ = [
     "Flight",
     "FlightCycle",
     "FlightMode",
+    "FlightModel",
     "GaussianGust",
     "Gust",
     "Loads",

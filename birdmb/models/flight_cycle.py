@@ -46,7 +46,7 @@ class FlightCycle(SteppedCycle):
     @cached_property
     def beat(self) -> Beat:
         """The beat, at the steps of the model's integration or finer than a collocated one."""
-        model = self.bird_model
+        model = self.model
         times, states = self._states_of_beat
         loads = model.loads_along(times[:-1], states[:-1])
         torques = model.actuator_torques_along(times[:-1], states[:-1], loads)
@@ -68,7 +68,7 @@ class FlightCycle(SteppedCycle):
     def _states_of_beat(self) -> tuple[FloatArray, FloatArray]:
         """Times (K,) and states (K, n) of the beat."""
         if self.nodes is None:
-            steps = self.bird_model.steps_per_beat
+            steps = self.model.steps_per_beat
         else:
             steps = max(STEPS_PER_BEAT, _INSTANTS_PER_NODE * self.nodes)
         times = self.start_time + self.period * np.arange(steps + 1) / steps
@@ -77,12 +77,12 @@ class FlightCycle(SteppedCycle):
     @cached_property
     def _mean_in_space(self) -> FloatArray:
         """Mean states in space (8,)."""
-        return _mean(self.bird_model.body_in_space(self._states_of_beat[1]))
+        return _mean(self.model.body_in_space(self._states_of_beat[1]))
 
     @cached_property
     def _mean_along_heading(self) -> FloatArray:
         """Mean velocity (3,) m/s forward, to the right and upwards, seen along the heading."""
-        return _mean(heading_velocity(self.bird_model.body_in_space(self._states_of_beat[1])))
+        return _mean(heading_velocity(self.model.body_in_space(self._states_of_beat[1])))
 
     @property
     def mean_velocity(self) -> FloatArray:
@@ -112,7 +112,7 @@ class FlightCycle(SteppedCycle):
     @cached_property
     def turn_rate(self) -> float:
         """Mean rate of the heading, rad/s, to the right positive; 0 in symmetric flight."""
-        return float(_mean(heading_rate(self.bird_model.body_in_space(self._states_of_beat[1]))))
+        return float(_mean(heading_rate(self.model.body_in_space(self._states_of_beat[1]))))
 
     @property
     def path_angle(self) -> float:
@@ -130,7 +130,7 @@ class FlightCycle(SteppedCycle):
     @property
     def potential_power(self) -> float:
         """Power drawn from sinking: minus weight times climb rate (thesis, chapter 8: P_g)."""
-        model = self.bird_model
+        model = self.model
         return -model.mass * model.bird.gravity * self.mean_climb_rate
 
     @property
@@ -145,14 +145,14 @@ class FlightCycle(SteppedCycle):
 
     def transport_cost(self, power: float) -> float:
         """Any power (W) per weight and speed, dimensionless; NaN without weight."""
-        model = self.bird_model
+        model = self.model
         way = model.mass * model.bird.gravity * self.mean_speed
         return power / way if way else math.nan
 
     @cached_property
     def driver_work(self) -> dict[str, Work]:
         """Positive and negative mean power of the drivers, W, by joint, both wings together."""
-        powers = zip(self.bird_model.bird.angle_names, self.beat.driver_power.T, strict=True)
+        powers = zip(self.model.bird.angle_names, self.beat.driver_power.T, strict=True)
         return {name: work_by_sign(self.beat.times, power) for name, power in powers}
 
     def muscle_power(self, recovery: float = 1.0) -> float:
@@ -212,7 +212,7 @@ class FlightCycle(SteppedCycle):
 
         Joints, hinges, air and gravity together must leave the kinetic energy as it was.
         """
-        model = self.bird_model
+        model = self.model
         joints = self.beat.joint_power.sum(axis=1)
         climb = heading_velocity(model.body_in_space(self.beat.states))[:, 2]
         gravity = -model.mass * model.bird.gravity * climb
@@ -238,7 +238,7 @@ class FlightCycle(SteppedCycle):
     @cached_property
     def why_no_flight(self) -> str | None:
         """Why this motion, though it repeats itself, is no flight; `None` if it is one."""
-        if self.bird_model.motion is HELD:
+        if self.model.motion is HELD:
             return "the body is held"
         forwards, pitch = self._mean_in_space[[0, _THETA]]
         if np.cos(pitch) <= 0.0:
@@ -253,7 +253,7 @@ class FlightCycle(SteppedCycle):
     @cached_property
     def flight_modes(self) -> tuple[FlightMode, ...]:
         """The modes, by plane and name, in the order of the multipliers."""
-        return flight_modes(self, self.bird_model.motion, self.bird_model.mirror)
+        return flight_modes(self, self.model.motion, self.model.mirror)
 
     @property
     def sort_key(self) -> tuple[float, ...]:
@@ -270,13 +270,13 @@ class FlightCycle(SteppedCycle):
         return np.full(errors.shape, np.inf) if self.failed_checks else errors
 
     def _by_joint(self, values: FloatArray) -> dict[str, float]:
-        names = self.bird_model.bird.angle_names
+        names = self.model.bird.angle_names
         return {n: float(v) for n, v in zip(names, _mean(values), strict=True)}
 
     def to_xarray(self) -> xr.Dataset:
         """The orbit as `LimitCycle.to_xarray` gives it, with loads and power over the beat."""
         beat = self.beat
-        axes, joints = ["x", "y", "z"], list(self.bird_model.bird.angle_names)
+        axes, joints = ["x", "y", "z"], list(self.model.bird.angle_names)
         vectors = {
             "position": ("m", "control points of the right wing from G"),
             "element_force": ("N", "force on each element of the right wing"),
@@ -321,8 +321,8 @@ class FlightCycle(SteppedCycle):
             coords={"beat_time": ("beat_time", beat.times, {"units": "s"}), "axis": axes}
             | {"joint": joints, "load": list(DISSIPATORS)},
             attrs={
-                "bird": self.bird_model.bird.name,
-                "fingerprint": self.bird_model.bird.fingerprint(),
+                "bird": self.model.bird.name,
+                "fingerprint": self.model.bird.fingerprint(),
                 "frame": "body axes: x forward, y right, z down, from the body's centre of mass",
                 **described_by(self),
                 "failed_checks": "; ".join(self.failed_checks),

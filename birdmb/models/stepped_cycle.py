@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import cast
 
 import numpy as np
 from scipy.linalg import block_diag
@@ -38,15 +37,12 @@ class SteppedCycle(LimitCycle):
     A collocated one is not integrated: it has no such error, and flying it is a check.
     """
 
-    @property
-    def bird_model(self) -> BirdModel:
-        """`model`, known to be a bird's."""
-        return cast(BirdModel, self.model)
+    model: BirdModel
 
     @cached_property
     def _finer_model(self) -> BirdModel:
         """The same method with twice the steps: explicit against explicit."""
-        return self.bird_model.with_steps(2 * self.bird_model.steps_per_beat)
+        return self.model.with_steps(2 * self.model.steps_per_beat)
 
     @cached_property
     def integration_error(self) -> float:
@@ -58,8 +54,7 @@ class SteppedCycle(LimitCycle):
             return self.state_error
         end = self.start_time + self.period
         coarse, fine = (
-            model.flow(self.x0, self.start_time, end)
-            for model in (self.bird_model, self._finer_model)
+            model.flow(self.x0, self.start_time, end) for model in (self.model, self._finer_model)
         )
         return float(np.abs((coarse - fine) / self.state_scale).max())
 
@@ -77,7 +72,7 @@ class SteppedCycle(LimitCycle):
         states = self.trajectory(times).states
         try:
             ends = [
-                self.bird_model.flow(*each)
+                self.model.flow(*each)
                 for each in zip(states[:-1], times[:-1], times[1:], strict=True)
             ]
         except StateError:
@@ -95,7 +90,7 @@ class SteppedCycle(LimitCycle):
         """
         if self.method == "collocation":
             return np.zeros(len(self.multipliers))
-        model, steps = self.bird_model, self.bird_model.steps_per_beat
+        model, steps = self.model, self.model.steps_per_beat
         others, factor = [self._finer_model], _ERROR_PER_DIFFERENCE
         if model.has_kinks:
             others += [model.with_steps(n) for n in (steps + 1, steps + steps // 6 + 2)]

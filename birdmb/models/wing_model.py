@@ -80,6 +80,22 @@ class BirdModel(ABC):
         return self.bird.body.mass
 
     @abstractmethod
+    def rhs(self, t: float, x: npt.ArrayLike) -> FloatArray:
+        """Rates (n,) of the states at time t (s) in state x (n,)."""
+
+    @abstractmethod
+    def rates(self, times: FloatArray, states: FloatArray) -> FloatArray:
+        """Rates (K, n) at `times` (K,) s of `states` (K, n), NaN where these are not finite."""
+
+    @abstractmethod
+    def initial_guess(self) -> FloatArray:
+        """State (n,) at t = 0 to look for a limit cycle from."""
+
+    @abstractmethod
+    def guess_along(self, times: FloatArray) -> FloatArray:
+        """A guess (K, n) of a limit cycle at `times` (K,) s."""
+
+    @abstractmethod
     def flow(self, x0: npt.ArrayLike, t0: float, t1: float) -> FloatArray:
         """State (n,) at t1 (s) of the flight through x0 (n,) at t0; raises `StateError`."""
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -12,6 +11,7 @@ from birdmb.orbits.collocation import Collocated, CollocationEquations, more_nod
 from birdmb.orbits.linearisation import trivial_mode
 from birdmb.orbits.multipliers import Spectrum, paired_distances, product
 from birdmb.orbits.periodic import periodic_multipliers
+from birdmb.orbits.result import FloquetResult
 from birdmb.orbits.variational import flow_jacobian_errors, flow_jacobians
 
 # The finer multipliers are better, not exact.
@@ -38,7 +38,7 @@ def linearise_collocated(
     accuracy: float,
     derivative_gap: float = 0.0,
     rate_jacobians: FloatArray | None = None,
-) -> dict[str, Any]:
+) -> FloquetResult:
     """Linearise the rates along a collocated orbit.
 
     The multipliers are those of the derivatives at its N nodes. Their error bounds hold what the
@@ -51,9 +51,6 @@ def linearise_collocated(
     `derivative_gap` is by how much a derivative that the model gives contradicts the differences
     that are taken instead. `rate_jacobians` (N, n, n) are the derivatives of the rates at the
     nodes, if they are known.
-
-    Returns:
-        The fields of a `LimitCycle` but for its search, by name.
     """
     at = _linearised(found.equations, found.u, rate_jacobians)
     # Of the finest one only the multipliers count, not their errors.
@@ -79,29 +76,28 @@ def linearise_collocated(
     points, period = equations.unpack(at.u)
     scale = equations.rhs.scale
     velocity = equations.rates(points, period)[0] * scale
-    return {
-        "model": equations.rhs.model,
-        "x0": points[0] * scale,
-        "state_names": tuple(equations.rhs.model.state_names),
-        "period": period,
-        "start_time": equations.start,
-        "points": points * scale,
-        "state_scale": scale,
-        "residual": found.equations.closure(found.residual),
-        "nodes": found.equations.nodes,
-        "monodromy": product(at.factors),
-        "segment_jacobians": at.factors,
-        "multipliers": spectrum.multipliers,
-        "multiplier_errors": errors,
-        "modes": spectrum.modes,
-        "left_modes": spectrum.left_modes,
-        "modes_along": spectrum.modes_along,
-        "trivial_index": trivial_mode(spectrum, velocity * period, scale)
+    return FloquetResult(
+        model=equations.rhs.model,
+        x0=points[0] * scale,
+        state_names=tuple(equations.rhs.model.state_names),
+        period=period,
+        start_time=equations.start,
+        points=points * scale,
+        state_scale=scale,
+        residual=found.equations.closure(found.residual),
+        monodromy=product(at.factors),
+        segment_jacobians=at.factors,
+        multipliers=spectrum.multipliers,
+        multiplier_errors=errors,
+        modes=spectrum.modes,
+        left_modes=spectrum.left_modes,
+        modes_along=spectrum.modes_along,
+        trivial_index=trivial_mode(spectrum, velocity * period, scale)
         if equations.autonomous
         else None,
-        "jacobian_method": "variational" if equations.rhs.has_derivative else "finite-differences",
-        "jacobian_gap": derivative_gap,
-    }
+        jacobian_method="variational" if equations.rhs.has_derivative else "finite-differences",
+        jacobian_gap=derivative_gap,
+    )
 
 
 def _linearised(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import cast
+from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -20,12 +20,12 @@ from birdmb.orbits.collocation import (
     fewer_nodes,
     more_nodes,
 )
-from birdmb.orbits.cycle import LimitCycle
+from birdmb.orbits.cycle import LimitCycle, cycle_type
 from birdmb.orbits.errors import ArgumentError, ConvergenceError, NotSmoothError
 from birdmb.orbits.iteration import Iteration
 from birdmb.orbits.newton import Damping
 from birdmb.orbits.periodicity import require_period
-from birdmb.orbits.problem import HasGuessedPath, HasLimitCycleType, Model
+from birdmb.orbits.problem import HasGuessedPath, Model
 from birdmb.orbits.result import FloquetResult
 from birdmb.orbits.right_hand_side import RightHandSide
 from birdmb.orbits.scales import declared_scale, outgrown, sizes_along
@@ -43,6 +43,7 @@ from birdmb.threads import one_thread
 # Fewer instants do not show a path: it is then flown from them.
 FEWEST_INSTANTS = 9
 _Found = Collocated[CollocationEquations]
+CycleT = TypeVar("CycleT", bound=LimitCycle)
 
 
 @one_thread()
@@ -112,16 +113,20 @@ def search_by_collocation(
         found = search(path, period, scale)
         iterations += found.iterations
     _refuse_equilibrium(found, iterations)
-    return collocated_cycle(replace(found, iterations=iterations), accuracy, gap)
+    found = replace(found, iterations=iterations)
+    return collocated_cycle(found, cycle_type(model), accuracy, gap)
 
 
-def collocated_cycle(found: _Found, accuracy: float, derivative_gap: float = 0.0) -> LimitCycle:
-    """The cycle that was found, of the type that its model names; see `linearise_collocated`."""
-    model = found.equations.rhs.model
-    fields = linearise_collocated(found, accuracy, derivative_gap)
-    fields |= {"iterations": found.iterations, "state_error": found.state_error}
-    kind = model.limit_cycle_type if isinstance(model, HasLimitCycleType) else LimitCycle
-    return cast("LimitCycle", kind(**fields))
+def collocated_cycle(
+    found: _Found, kind: type[CycleT], accuracy: float, derivative_gap: float = 0.0
+) -> CycleT:
+    """The cycle that was found, of the kind that its model names; see `linearise_collocated`."""
+    return kind.of(
+        linearise_collocated(found, accuracy, derivative_gap),
+        found.iterations,
+        nodes=found.equations.nodes,
+        state_error=found.state_error,
+    )
 
 
 def nodes_shown(guess: npt.ArrayLike | FloquetResult | None) -> int:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal
+from dataclasses import dataclass, fields
+from typing import Literal, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -11,6 +11,7 @@ import xarray as xr
 
 from birdmb.orbits.iteration import Iteration
 from birdmb.orbits.ode import Trajectory
+from birdmb.orbits.problem import HasLimitCycleType, Model
 from birdmb.orbits.result import FloquetResult
 from birdmb.orbits.trigonometric import interpolated
 
@@ -38,6 +39,25 @@ class LimitCycle(FloquetResult):
     method_reason: str = ""
     nodes: int | None = None
     state_error: float = 0.0
+
+    @classmethod
+    def of(
+        cls,
+        orbit: FloquetResult,
+        iterations: tuple[Iteration, ...],
+        method_reason: str = "",
+        nodes: int | None = None,
+        state_error: float = 0.0,
+    ) -> Self:
+        """The cycle of a linearised orbit and of the search that led to it."""
+        known = {field.name: getattr(orbit, field.name) for field in fields(FloquetResult)}
+        return cls(
+            **known,
+            iterations=iterations,
+            method_reason=method_reason,
+            nodes=nodes,
+            state_error=state_error,
+        )
 
     @property
     def method(self) -> OrbitMethod:
@@ -76,3 +96,11 @@ class LimitCycle(FloquetResult):
                 state_error=self.state_error,
             )
         )
+
+
+def cycle_type(model: Model) -> type[LimitCycle]:
+    """The kind of limit cycles that a model names, or the plain one."""
+    if isinstance(model, HasLimitCycleType):
+        named: type[LimitCycle] = model.limit_cycle_type
+        return named
+    return LimitCycle

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, Self
+from typing import Self
 
 import numpy as np
 import scipy.sparse as sp
@@ -16,7 +16,7 @@ from birdmb.orbits.branch_points import BranchPoint
 from birdmb.orbits.cycle import LimitCycle, OrbitMethod
 from birdmb.orbits.iteration import Iteration
 from birdmb.orbits.newton import Equations, Matrix, factorise
-from birdmb.orbits.problem import HasLimitCycleType, Model
+from birdmb.orbits.problem import Model
 
 Family = Callable[[float], Model]
 
@@ -95,8 +95,8 @@ class ExtendedEquations(ABC):
         """The solution `u` as it is."""
 
     @abstractmethod
-    def linearised(self, solution: Solution) -> tuple[dict[str, Any], Matrix]:
-        """Fields of the `LimitCycle` of a solution of these equations, and their Jacobian there."""
+    def linearised(self, solution: Solution) -> tuple[LimitCycle, Matrix]:
+        """The orbit of a solution of these equations, and their Jacobian there."""
 
     @abstractmethod
     def velocities(self, u: FloatArray) -> FloatArray:
@@ -165,10 +165,7 @@ class ExtendedEquations(ABC):
 
         It points to the side of the plane that `direction` points to.
         """
-        fields, matrix = self.linearised(solution)
-        model = fields["model"]
-        kind = model.limit_cycle_type if isinstance(model, HasLimitCycleType) else LimitCycle
-        cycle: LimitCycle = kind(**fields, iterations=solution.iterations)
+        cycle, matrix = self.linearised(solution)
         solve, _ = factorise(matrix)
         tangent = solve(np.append(np.zeros(len(solution.u) - 1), 1.0))
         return cycle, np.asarray(tangent / np.sqrt(self.inner(tangent, tangent)))

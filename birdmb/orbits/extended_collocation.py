@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal, Self, cast
+from typing import Literal, Self, cast
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from birdmb.orbits.collocation import (
     collocate,
     fewer_nodes,
 )
+from birdmb.orbits.cycle import LimitCycle, cycle_type
 from birdmb.orbits.extended import ExtendedEquations, Solution
 from birdmb.orbits.iteration import Iteration
 from birdmb.orbits.newton import Matrix
@@ -150,8 +151,8 @@ class ExtendedCollocation(ExtendedEquations):
         )
         return CollocatedSolution(found.equations, found.u, found.iterations, found)
 
-    def linearised(self, solution: Solution) -> tuple[dict[str, Any], Matrix]:
-        """Fields of the `LimitCycle` of a solution, and the Jacobian there."""
+    def linearised(self, solution: Solution) -> tuple[LimitCycle, Matrix]:
+        """The orbit of a solution, and the Jacobian there."""
         found = cast("CollocatedSolution", solution).found
         orbit = self.orbit(self.parameter(found.u))
         low, high = self.parameter_range
@@ -161,7 +162,7 @@ class ExtendedCollocation(ExtendedEquations):
         if gap > 0:
             orbit, finer = orbit.by_differences(), finer.by_differences()
         rate_jacobians = orbit.rate_jacobians(found.u[:-1])
-        fields = linearise_collocated(
+        linearised = linearise_collocated(
             Collocated(
                 orbit,
                 found.u[:-1],
@@ -175,8 +176,13 @@ class ExtendedCollocation(ExtendedEquations):
             derivative_gap=gap,
             rate_jacobians=rate_jacobians,
         )
-        fields |= {"state_error": found.state_error}
-        return fields, self.border(found.u, orbit.assemble(found.u[:-1], rate_jacobians))
+        cycle = cycle_type(linearised.model).of(
+            linearised,
+            solution.iterations,
+            nodes=orbit.nodes,
+            state_error=found.state_error,
+        )
+        return cycle, self.border(found.u, orbit.assemble(found.u[:-1], rate_jacobians))
 
     def velocities(self, u: FloatArray) -> FloatArray:
         """Rates (N, n) of the scaled states at the nodes."""

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from concurrent.futures import Executor
 from dataclasses import dataclass
-from typing import Any, Literal, Self
+from typing import Literal, Self
 
 import numpy as np
 
 from birdmb._typing import FloatArray
 from birdmb.orbits.branch_points import BranchPoint
+from birdmb.orbits.cycle import LimitCycle, cycle_type
 from birdmb.orbits.extended import ExtendedEquations, Solution
 from birdmb.orbits.iteration import Iteration
 from birdmb.orbits.linearisation import linearise
@@ -80,13 +81,14 @@ class ExtendedShooting(ExtendedEquations):
         """The solution `u` as it is."""
         return Solution(self, u, ())
 
-    def linearised(self, solution: Solution) -> tuple[dict[str, Any], Matrix]:
-        """Fields of the `LimitCycle` of a solution, and the Jacobian there."""
+    def linearised(self, solution: Solution) -> tuple[LimitCycle, Matrix]:
+        """The orbit of a solution, and the Jacobian there."""
         orbit = self.orbit(self.parameter(solution.u))
         points, period = orbit.unpack(solution.u[:-1])
-        fields = linearise(orbit, points, period, periodic_multipliers)
-        matrix = orbit.assemble(points, period, fields["segment_jacobians"])
-        return fields, self.border(solution.u, matrix)
+        found = linearise(orbit, points, period, periodic_multipliers)
+        matrix = orbit.assemble(points, period, found.segment_jacobians)
+        cycle = cycle_type(found.model).of(found, solution.iterations)
+        return cycle, self.border(solution.u, matrix)
 
     def velocities(self, u: FloatArray) -> FloatArray:
         """Rates (M, n) of the scaled states at the starts of the segments."""

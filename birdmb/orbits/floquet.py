@@ -75,4 +75,4 @@ def floquet(
             closure,
         )
     may_differ = jacobian == "auto"
-    return FloquetResult(**linearise(equations, points, period, solver, residual, may_differ))
+    return linearise(equations, points, period, solver, residual, may_differ)

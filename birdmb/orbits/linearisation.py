@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
 
 from birdmb._typing import FloatArray
 from birdmb.orbits.agreement import jacobian_gaps
 from birdmb.orbits.multipliers import MultiplierSolver, Spectrum, product
+from birdmb.orbits.result import FloquetResult
 from birdmb.orbits.segments import Correction, Segments
 from birdmb.orbits.shooting import ShootingEquations
 
@@ -23,7 +24,7 @@ def linearise(
     solver: MultiplierSolver,
     residual: FloatArray | None = None,
     may_differ: bool = False,
-) -> dict[str, Any]:
+) -> FloquetResult:
     """Linearise the flow along the closed orbit through `points` (M, n).
 
     `residual` is that of the equations there, if it is known. `may_differ`: where differences of
@@ -35,9 +36,6 @@ def linearise(
     eigenvalues, and the error of the orbit: the change of the Jacobians over the Newton correction
     that is left. They do not hold the discretisation of a model that has no coarser version, which
     only its refinement shows.
-
-    Returns:
-        The fields of a `FloquetResult`, by name.
     """
     segments = equations.segments
     u = equations.pack(points, period)
@@ -56,30 +54,30 @@ def linearise(
         if may_differ and gaps.any():
             instead = equations.by_differences()
             found = linearise(instead, points, period, solver, residual)
-            return found | {"jacobian_gap": _largest(gaps, segments)}
+            return replace(found, jacobian_gap=_largest(gaps, segments))
     factors, errors = segments.refined(points, period, factors, curvatures, correction)
     errors = errors + gaps
     spectrum = solver(factors, errors, segments.scale)
-    return {
-        "model": segments.model,
-        "x0": points[0],
-        "state_names": tuple(segments.model.state_names),
-        "period": period,
-        "start_time": segments.start,
-        "points": points,
-        "state_scale": segments.scale,
-        "residual": equations.closure(residual),
-        "monodromy": product(factors),
-        "segment_jacobians": factors,
-        "multipliers": spectrum.multipliers,
-        "multiplier_errors": spectrum.errors,
-        "modes": spectrum.modes,
-        "left_modes": spectrum.left_modes,
-        "modes_along": spectrum.modes_along,
-        "trivial_index": _trivial(equations, points, period, spectrum),
-        "jacobian_method": segments.jacobian_method,
-        "jacobian_gap": _largest(gaps, segments),
-    }
+    return FloquetResult(
+        model=segments.model,
+        x0=points[0],
+        state_names=tuple(segments.model.state_names),
+        period=period,
+        start_time=segments.start,
+        points=points,
+        state_scale=segments.scale,
+        residual=equations.closure(residual),
+        monodromy=product(factors),
+        segment_jacobians=factors,
+        multipliers=spectrum.multipliers,
+        multiplier_errors=spectrum.errors,
+        modes=spectrum.modes,
+        left_modes=spectrum.left_modes,
+        modes_along=spectrum.modes_along,
+        trivial_index=_trivial(equations, points, period, spectrum),
+        jacobian_method=segments.jacobian_method,
+        jacobian_gap=_largest(gaps, segments),
+    )
 
 
 def _largest(gaps: FloatArray, segments: Segments) -> float:

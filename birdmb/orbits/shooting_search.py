@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import Executor
 from contextlib import suppress
-from typing import Literal, cast
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +14,7 @@ import scipy.sparse as sp
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
 from birdmb.orbits.agreement import jacobian_gaps
-from birdmb.orbits.cycle import LimitCycle
+from birdmb.orbits.cycle import LimitCycle, cycle_type
 from birdmb.orbits.errors import (
     ArgumentError,
     ConvergenceError,
@@ -25,7 +25,7 @@ from birdmb.orbits.linearisation import linearise
 from birdmb.orbits.newton import Damping, solve
 from birdmb.orbits.periodic import periodic_multipliers
 from birdmb.orbits.periodicity import require_period
-from birdmb.orbits.problem import HasInitialGuess, HasLimitCycleType, Model
+from birdmb.orbits.problem import HasInitialGuess, Model
 from birdmb.orbits.scales import SAMPLES_PER_SEGMENT, declared_scale, lay_out, outgrown
 from birdmb.orbits.segments import Segments, choose_jacobian, sample
 from birdmb.orbits.shooting import ShootingEquations
@@ -122,9 +122,8 @@ def search_by_shooting(
     if autonomous:
         closure = equations.closure(residual)
         _reject_equilibrium(equations.segments, points[0], period, closure, iterations)
-    kind = model.limit_cycle_type if isinstance(model, HasLimitCycleType) else LimitCycle
     found = linearise(equations, points, period, periodic_multipliers, residual, jacobian == "auto")
-    return cast("LimitCycle", kind(**found, iterations=iterations, method_reason=reason))
+    return cycle_type(model).of(found, iterations, method_reason=reason)
 
 
 def _misled(equations: ShootingEquations, best: Iteration) -> bool:

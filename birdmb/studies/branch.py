@@ -12,7 +12,7 @@ import numpy as np
 
 from birdmb._typing import FloatArray
 from birdmb.errors import ArgumentError, BirdmbError, StateError, TopologyError
-from birdmb.models import FlightCycle, MultibodyModel
+from birdmb.models import FlightCycle, FlightModel, MultibodyModel
 from birdmb.models.wing_model import BirdModel
 from birdmb.orbits import (
     Bifurcation,
@@ -28,7 +28,7 @@ from birdmb.studies.relevance import check_relevant
 from birdmb.studies.validity import Validity, assess_validity
 from birdmb.topology import Bird
 
-FamilyModel: TypeAlias = Callable[..., BirdModel]
+FamilyModel: TypeAlias = Callable[..., FlightModel]
 """Makes a model of a bird: `MultibodyModel`, `RigidModel`, or either with options bound."""
 
 _SAMPLES = 9
@@ -151,7 +151,7 @@ def bird_branch(
     )
 
 
-def _member(bird: Bird, name: str, model: FamilyModel, value: float) -> BirdModel:
+def _member(bird: Bird, name: str, model: FamilyModel, value: float) -> FlightModel:
     return model(bird.with_values({name: value}))
 
 
@@ -247,6 +247,6 @@ class _LastValidity:
 
 def _angles(cycle: FlightCycle, joint: int) -> FloatArray:
     """Angle (K,) rad of a joint over a beat."""
-    model, beat = cycle.bird_model, cycle.beat
+    model, beat = cycle.model, cycle.beat
     at = zip(beat.times, beat.states, strict=True)
     return np.array([model.joint_motion(t, x)[0][joint] for t, x in at])

@@ -5,23 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import replace
-from typing import Any, TypeAlias, cast
+from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError, StateError
-from birdmb.models import FlightCycle
-from birdmb.models.wing_model import BirdModel
-from birdmb.orbits import LimitCycle, Model, find_limit_cycle
+from birdmb.models import BirdModel, FlightCycle, FlightModel
+from birdmb.orbits import LimitCycle, find_limit_cycle
 from birdmb.orbits.collocation import FIRST_NODES
 from birdmb.orbits.collocation_search import nodes_shown
 from birdmb.topology import Bird
 
 _MODELS_KEPT = 8
 
-ModelFactory: TypeAlias = Callable[[Bird], Model]
+ModelFactory: TypeAlias = Callable[[Bird], FlightModel]
 """Turns a bird into a model: `RigidModel`, `MultibodyModel`, or either with options bound."""
 
 
@@ -83,12 +82,12 @@ class WarmCycles:
                 return self._kept(find_limit_cycle(model, last, **self._options))
         return self._kept(find_limit_cycle(model, **self._options))
 
-    def _kept(self, cycle: LimitCycle) -> FlightCycle:
-        self._last = cast("FlightCycle", cycle)
-        return self._last
+    def _kept(self, cycle: FlightCycle) -> FlightCycle:
+        self._last = cycle
+        return cycle
 
 
-def find_near(model: Model, cycle: LimitCycle, options: Mapping[str, Any]) -> LimitCycle:
+def find_near(model: FlightModel, cycle: FlightCycle, options: Mapping[str, Any]) -> FlightCycle:
     """The limit cycle of a model, from one of a model like it; raises as `find_limit_cycle`."""
     if cycle.method == "collocation":
         return find_limit_cycle(model, cycle, **options)
@@ -96,8 +95,11 @@ def find_near(model: Model, cycle: LimitCycle, options: Mapping[str, Any]) -> Li
 
 
 def shot_near(
-    model: Model, points: FloatArray, jacobians: npt.ArrayLike | None, options: Mapping[str, Any]
-) -> LimitCycle:
+    model: FlightModel,
+    points: FloatArray,
+    jacobians: npt.ArrayLike | None,
+    options: Mapping[str, Any],
+) -> FlightCycle:
     """The limit cycle of a model by shooting, from one of a model like it that was shot.
 
     Collocation is not tried again beside an orbit that it was too rough for.

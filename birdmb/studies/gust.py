@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import cast
 
 import numpy as np
 import xarray as xr
@@ -14,7 +13,7 @@ from scipy.interpolate import CubicSpline
 
 from birdmb._typing import FloatArray, IntArray
 from birdmb.errors import ArgumentError, StateError
-from birdmb.models import FlightCycle, Gust, MultibodyModel, RigidModel
+from birdmb.models import FlightCycle, Gust
 from birdmb.models.gusts import velocity_of
 from birdmb.orbits.multipliers import Spectrum
 from birdmb.orbits.periodic import periodic_multipliers
@@ -25,8 +24,6 @@ _PHASES_PER_STEP = 2
 _STEP = 1e-5  # of the differences, in units of the state scale and in m/s
 _RELATIVE_TOLERANCE = 1e-8
 _ABSOLUTE_TOLERANCE = 1e-10  # of the state scale, for a gust of 1 m/s
-
-_Bird = RigidModel | MultibodyModel
 
 
 def gust_response(
@@ -62,7 +59,7 @@ def gust_response(
     """
     if periods < 1 or samples < 1:
         raise ArgumentError("periods and samples must be at least 1.")
-    motion = cycle.bird_model.motion
+    motion = cycle.model.motion
     beats = np.arange(periods * samples + 1) / samples
     times: FloatArray = cycle.start_time + cycle.period * beats
     wind = np.array([velocity_of(gust, float(t)) for t in times])
@@ -101,7 +98,7 @@ def gust_response(
             "direction": ["forward", "right", "up"],
         },
         attrs={
-            "bird": cast(_Bird, cycle.model).bird.name,
+            "bird": cycle.model.bird.name,
             "period": cycle.period,
             "failure": failure,
         },
@@ -123,7 +120,7 @@ class _Window:
 def _flown(cycle: FlightCycle, gust: Gust, times: FloatArray) -> tuple[FloatArray, str]:
     """States (K, n) at `times` (K,) s by the full model, and why it ended early."""
     window = _Window(gust)
-    model = cast(_Bird, cycle.model).in_gust(window)
+    model = cycle.model.in_gust(window)
     states = np.full((times.size, len(cycle.x0)), np.nan)
     states[0] = x = cycle.x0
     beats = times[0] + cycle.period * np.arange(1, round((times[-1] - times[0]) / cycle.period) + 1)
@@ -160,7 +157,7 @@ class _Linearised:
 
 
 def _linearise(cycle: FlightCycle) -> _Linearised:
-    model = cast(_Bird, cycle.model)
+    model = cycle.model
     phases = np.linspace(0.0, cycle.period, _PHASES_PER_STEP * model.steps_per_beat + 1)
     times = cycle.start_time + phases
     n, steps = len(cycle.x0), _STEP * cycle.state_scale

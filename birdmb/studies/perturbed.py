@@ -40,7 +40,7 @@ def perturbed_flight(
     Raises:
         ArgumentError: numbers that are not positive.
     """
-    motion = cycle.bird_model.motion
+    motion = cycle.model.motion
     modes = np.flatnonzero(cycle.multipliers.imag >= 0)
     start, beats = cycle.start_time, np.arange(periods + 1)
     responses = [
@@ -90,7 +90,7 @@ def perturbed_flight(
             "beat": beats,
             "state": list(cycle.state_names),
         },
-        attrs={"bird": cycle.bird_model.bird.name, "amplitude": amplitude, "period": cycle.period},
+        attrs={"bird": cycle.model.bird.name, "amplitude": amplitude, "period": cycle.period},
     )
 
 

@@ -208,5 +208,5 @@ def _result(search: TrimSearch, from_guess: bool) -> Trim:
     if not search.is_trimmed(best):
         raise TrimError(search.not_trimmed(best), values, best.reached)
     residual = float(np.abs(best.differences).max())
-    bird = best.cycle.bird_model.bird
+    bird = best.cycle.model.bird
     return Trim(bird, best.cycle, values, residual, len(search.found), from_guess)

@@ -5,19 +5,19 @@ from __future__ import annotations
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from birdmb._typing import FloatArray
 from birdmb.errors import ArgumentError, OrbitError, StateError
-from birdmb.models import BirdModel, FlightCycle
+from birdmb.models import FlightCycle, FlightModel
 from birdmb.models.motion import PLANAR
 from birdmb.models.wing_model import BODY_STATES
 from birdmb.orbits import FloquetResult, NotSmoothError
 from birdmb.orbits.collocation_search import collocated_cycle, guessed_path, nodes_shown
-from birdmb.orbits.problem import HasGuessedPath, HasInitialGuess, HasRates
+from birdmb.orbits.problem import HasGuessedPath, HasRates
 from birdmb.orbits.search import ACCURACY, TOLERANCE
 from birdmb.studies.cycles import KeptModels, ModelFactory, WarmCycles
 from birdmb.studies.trim_collocation import CollocatedTrim, solve_collocated
@@ -154,7 +154,7 @@ class TrimSearch:
         point, found = solve_collocated(
             equations, path, point, tolerance=tolerance, accuracy=accuracy
         )
-        return point, cast("FlightCycle", collocated_cycle(found, accuracy))
+        return point, collocated_cycle(found, FlightCycle, accuracy)
 
     def _forward_path(self, nodes: int) -> FloatArray:
         """States (nodes, n) over a beat of a body in level forward flight."""
@@ -165,15 +165,15 @@ class TrimSearch:
             path[:, : len(BODY_STATES)] = state[: len(BODY_STATES)]
         return path
 
-    def _made_at(self, point: FloatArray) -> BirdModel:
-        return cast("BirdModel", self._model(self.bird.with_values(self.named(point))))
+    def _made_at(self, point: FloatArray) -> FlightModel:
+        return self._model(self.bird.with_values(self.named(point)))
 
     def forward_flight(self) -> FloatArray:
         """State (n,) of a level body that flies as fast as its wings need to carry it."""
         model = self._model_at(self.start)
         x = np.zeros(len(BODY_STATES))
         if len(model.state_names) > x.size:
-            x = cast("HasInitialGuess", model).initial_guess()
+            x = model.initial_guess()
         still = model.loads(0.0, x)
         area = 2.0 * float((still.right.chord * still.right.width).sum())
         bird = model.bird
@@ -191,7 +191,7 @@ class TrimSearch:
         with suppress(OrbitError, StateError):
             self.differences(point)
             return self.found[tuple(point.tolist())].cycle
-        return cast("HasInitialGuess", self._model_at(point)).initial_guess()
+        return self._model_at(point).initial_guess()
 
     def failed_together(self, error: Exception) -> None:
         """Keep why closure and targets could not be met together; the last reason counts."""

@@ -35,7 +35,7 @@ def tunnel_and_free_flight(cycle: FlightCycle) -> xr.Dataset:
         the body's centre of mass, nose up); `wing_power` (W); `force` (N, body axes, by `axis`);
         `body_state` (by `state`).
     """
-    model, beat = cycle.bird_model, cycle.beat
+    model, beat = cycle.model, cycle.beat
     held = beat.states.copy()
     held[:, : _THETA + 1] = beat.states[:-1, : _THETA + 1].mean(axis=0)
     held[:, _Q] = 0.0

@@ -175,7 +175,7 @@ class Validity:
         Relative to the body, along its z axis (Taylor, Nudds & Thomas 2003); of the wing that moves
         further.
         """
-        model, beat = self.cycle.bird_model, self.cycle.beat
+        model, beat = self.cycle.model, self.cycle.beat
         angles, _ = model.motion_of_both(beat.times, beat.states)
         discretisation = model.bird.wing.resolved_discretisation
         sides = [0] if model.is_mirrored else [0, 1]
@@ -221,7 +221,7 @@ def assess_validity(
         largest_overlap: largest part of the wing's area across the plane of symmetry. (A lifting
             line that crosses it has no loads and no cycle: `BirdModel.loads`.)
     """
-    model = cycle.bird_model
+    model = cycle.model
     frequency = model.bird.gait.frequency
     stack = cycle.beat.loads_along.stack
     wings = [stack.right] if model.is_mirrored else [stack.right, stack.left]

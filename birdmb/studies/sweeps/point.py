@@ -8,14 +8,13 @@ import time
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import asdict
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 
 from birdmb.errors import BirdmbError, OrbitError, StateError
-from birdmb.models import FlightCycle
-from birdmb.models.wing_model import BirdModel
-from birdmb.orbits import Model, NotSmoothError, find_limit_cycle
+from birdmb.models import FlightCycle, FlightModel
+from birdmb.orbits import NotSmoothError, find_limit_cycle
 from birdmb.orbits.collocation import FIRST_NODES
 from birdmb.orbits.problem import HasGuessedPath, HasInitialGuess, HasRates
 from birdmb.quantities import described_by, valid_by
@@ -76,7 +75,7 @@ def _told(error: BaseException) -> str:
 def prepare(bird: Bird, model: ModelFactory) -> None:
     """Load or compile the kernels, along a guess; a bird that cannot is left to its points."""
     with suppress(Exception):
-        flying = cast("BirdModel", model(bird))
+        flying = model(bird)
         if isinstance(flying, HasInitialGuess):
             flying.loads(0.0, flying.initial_guess())
         if isinstance(flying, HasGuessedPath) and isinstance(flying, HasRates):
@@ -90,7 +89,7 @@ def _found(task: Task) -> tuple[FlightCycle, str]:
     guess = task.guess
     # A varied mode of a joint may have given the neighbour other states.
     if guess is None or guess.state_names != model.state_names:
-        return cast("FlightCycle", find_limit_cycle(model, **search)), COLD
+        return find_limit_cycle(model, **search), COLD
     if guess.flight["method"] == "collocation":
         with suppress(NotSmoothError):
             return _collocated_near(model, guess, search)
@@ -99,12 +98,12 @@ def _found(task: Task) -> tuple[FlightCycle, str]:
             # Of several segments only the product is kept.
             known = [guess.flight["monodromy"]] if search["segments"] in {None, 1} else None
             found = shot_near(model, guess.orbit, known, search)
-            return cast("FlightCycle", found), guess.place
-    return cast("FlightCycle", find_limit_cycle(model, **search)), COLD
+            return found, guess.place
+    return find_limit_cycle(model, **search), COLD
 
 
 def _collocated_near(
-    model: Model, guess: Guess, search: Mapping[str, Any]
+    model: FlightModel, guess: Guess, search: Mapping[str, Any]
 ) -> tuple[FlightCycle, str]:
     """The cycle of a model by collocation alone, and what it was found from.
 
@@ -118,7 +117,7 @@ def _collocated_near(
         raise
     except (OrbitError, StateError):
         found, start = find_limit_cycle(model, **collocation), COLD
-    return cast("FlightCycle", found), start
+    return found, start
 
 
 def _trimmed(task: Task, trimming: Trimming) -> tuple[FlightCycle, dict[str, float], str]:
@@ -141,7 +140,7 @@ def _trimmed(task: Task, trimming: Trimming) -> tuple[FlightCycle, dict[str, flo
 
 def described(cycle: FlightCycle) -> dict[str, Any]:
     """What is kept of a limit cycle, fit for JSON: units as in `FlightCycle`, `None` for NaN."""
-    model = cycle.bird_model
+    model = cycle.model
     validity = assess_validity(cycle)
     numbers = {
         **described_by(cycle),

@@ -9,8 +9,7 @@ from typing import TypeAlias, cast
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.models import FlightCycle
-from birdmb.models.wing_model import BirdModel
+from birdmb.models import BirdModel, FlightCycle
 from birdmb.orbits.collocation import fewer_nodes
 from birdmb.studies.cycles import KeptModels, ModelFactory, path_at_nodes
 from birdmb.studies.sweeps.grid import Value
@@ -64,8 +63,8 @@ def sensitivities(
         def model_at(point: FloatArray) -> BirdModel:
             by_name = dict(zip(names, point.tolist(), strict=True))
             if there == values and by_name == trimmed:
-                return cycle.bird_model
-            return cast("BirdModel", model(bird.with_values({**there, **by_name})))
+                return cycle.model
+            return model(bird.with_values({**there, **by_name}))
 
         return KeptModels(model_at)
 
