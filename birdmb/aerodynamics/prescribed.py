@@ -45,16 +45,10 @@ class PrescribedWing(NamedTuple):
     clearance: FloatArray  # (P,) m, see `elements.clearance`; NaN also where not converged
 
 
-@kernel
 def driver_motion(wing: WingArrays, t: float) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Driver angles (A,) rad, rates and accelerations of all joints and hinges at time t (s)."""
-    argument = wing.angular_frequency * t + wing.phase
-    swing = wing.amplitude * np.sin(argument)
-    return (
-        wing.offset + swing,
-        wing.angular_frequency * wing.amplitude * np.cos(argument),
-        -(wing.angular_frequency**2) * swing,
-    )
+    angles, rates, accelerations = driver_motion_along(wing, np.array([t]))
+    return angles[0], rates[0], accelerations[0]
 
 
 def driver_motion_along(

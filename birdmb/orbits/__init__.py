@@ -1,5 +1,6 @@
 """Periodic orbits and their Floquet multipliers, for any system with a flow."""
 
+from birdmb.errors import ArgumentError
 from birdmb.orbits.boundary import BoundaryPoint, StabilityBoundary, stability_boundary
 from birdmb.orbits.branch import Branch, load_branch
 from birdmb.orbits.branch_points import Bifurcation, BranchPoint
@@ -7,7 +8,6 @@ from birdmb.orbits.coexisting import Attempt, find_limit_cycles
 from birdmb.orbits.continuation import continue_branch
 from birdmb.orbits.cycle import LimitCycle
 from birdmb.orbits.errors import (
-    ArgumentError,
     BranchFileError,
     BranchStopped,
     ConvergenceError,

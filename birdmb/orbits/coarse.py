@@ -8,12 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.errors import OrbitError, StateError
+from birdmb.errors import ArgumentError, OrbitError, StateError
 from birdmb.orbits.collocation import CollocationEquations, more_nodes
 from birdmb.orbits.collocation_search import guessed_path
 from birdmb.orbits.cycle import LimitCycle
 from birdmb.orbits.deflation import Deflated, Known, apart
-from birdmb.orbits.errors import ArgumentError
 from birdmb.orbits.iteration import Iteration
 from birdmb.orbits.newton import Equations, solve
 from birdmb.orbits.periodicity import require_period, turns

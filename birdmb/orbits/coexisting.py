@@ -9,11 +9,11 @@ from typing import Any, Literal, TypedDict, Unpack, overload
 import numpy.typing as npt
 
 from birdmb._typing import FloatArray
-from birdmb.errors import OrbitError, StateError
+from birdmb.errors import ArgumentError, OrbitError, StateError
 from birdmb.orbits.coarse import CoarseOrbit, CoarseSearch
 from birdmb.orbits.collocation_search import search_by_collocation
 from birdmb.orbits.cycle import LimitCycle
-from birdmb.orbits.errors import ArgumentError, NotSmoothError, require_tolerance
+from birdmb.orbits.errors import NotSmoothError, require_tolerance
 from birdmb.orbits.problem import HasRates, HasRhs, HasStartingPaths, Model, ModelWithCycles
 from birdmb.orbits.result import FloquetResult
 from birdmb.orbits.sameness import among

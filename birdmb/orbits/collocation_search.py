@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from birdmb._typing import FloatArray
-from birdmb.errors import OrbitError, StateError
+from birdmb.errors import ArgumentError, OrbitError, StateError
 from birdmb.orbits.collocated import linearise_collocated
 from birdmb.orbits.collocation import (
     FIRST_NODES,
@@ -21,7 +21,7 @@ from birdmb.orbits.collocation import (
     more_nodes,
 )
 from birdmb.orbits.cycle import LimitCycle, cycle_type
-from birdmb.orbits.errors import ArgumentError, ConvergenceError, NotSmoothError
+from birdmb.orbits.errors import ConvergenceError, NotSmoothError
 from birdmb.orbits.iteration import Iteration
 from birdmb.orbits.newton import Damping
 from birdmb.orbits.periodicity import require_period

@@ -12,10 +12,11 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
+from birdmb.errors import ArgumentError
 from birdmb.orbits.branch import Branch
 from birdmb.orbits.branch_points import Bifurcation, BranchPoint
 from birdmb.orbits.cycle import LimitCycle
-from birdmb.orbits.errors import ArgumentError, BranchStopped, SingularJacobianError
+from birdmb.orbits.errors import BranchStopped, SingularJacobianError
 from birdmb.orbits.extended import ExtendedEquations, Family
 from birdmb.orbits.extended_collocation import ExtendedCollocation
 from birdmb.orbits.extended_shooting import ExtendedShooting

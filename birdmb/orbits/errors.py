@@ -5,15 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Final, Literal
 
-from birdmb import errors
 from birdmb._typing import FloatArray
-from birdmb.errors import OrbitError
+from birdmb.errors import ArgumentError, OrbitError
 from birdmb.orbits.iteration import Iteration
-
-
-class ArgumentError(errors.ArgumentError, OrbitError):
-    """As `birdmb.errors.ArgumentError`, of a computation on an orbit."""
-
 
 _LARGEST_TOLERANCE = 1e-2
 

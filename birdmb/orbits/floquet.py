@@ -8,7 +8,8 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from birdmb.orbits.errors import ArgumentError, NotClosedError, require_tolerance
+from birdmb.errors import ArgumentError
+from birdmb.orbits.errors import NotClosedError, require_tolerance
 from birdmb.orbits.linearisation import linearise
 from birdmb.orbits.multipliers import MultiplierSolver
 from birdmb.orbits.periodic import periodic_multipliers

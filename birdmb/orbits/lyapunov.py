@@ -10,8 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from birdmb._typing import FloatArray
-from birdmb.errors import StateError
-from birdmb.orbits.errors import ArgumentError
+from birdmb.errors import ArgumentError, StateError
 from birdmb.orbits.problem import Model, Scalable, VariationalModel, flow_accuracy
 from birdmb.orbits.scales import lay_out
 

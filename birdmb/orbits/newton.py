@@ -15,8 +15,8 @@ from scipy.sparse.linalg import LinearOperator, onenormest, splu
 from scipy.sparse.linalg import norm as sparse_norm
 
 from birdmb._typing import FloatArray
-from birdmb.errors import StateError
-from birdmb.orbits.errors import ArgumentError, ConvergenceError, SingularJacobianError
+from birdmb.errors import ArgumentError, StateError
+from birdmb.orbits.errors import ConvergenceError, SingularJacobianError
 from birdmb.orbits.iteration import Iteration
 
 Damping = Literal["line-search", "levenberg-marquardt"]

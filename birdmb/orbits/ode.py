@@ -11,8 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from birdmb._typing import FloatArray
-from birdmb.errors import StateError
-from birdmb.orbits.errors import ArgumentError
+from birdmb.errors import ArgumentError, StateError
 from birdmb.orbits.integration import SOLVERS, Integration, Integrator
 
 Rhs = Callable[[float, FloatArray], npt.ArrayLike]

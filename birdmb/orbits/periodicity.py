@@ -7,8 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.errors import StateError
-from birdmb.orbits.errors import ArgumentError
+from birdmb.errors import ArgumentError, StateError
 from birdmb.orbits.problem import HasRates, HasRhs, Model
 from birdmb.orbits.right_hand_side import batched_rates
 

@@ -10,8 +10,7 @@ import numpy.typing as npt
 import xarray as xr
 
 from birdmb._typing import FloatArray
-from birdmb.errors import StateError
-from birdmb.orbits.errors import ArgumentError
+from birdmb.errors import ArgumentError, StateError
 from birdmb.orbits.result import FloquetResult
 from birdmb.orbits.segments import sample
 

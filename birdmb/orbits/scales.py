@@ -6,8 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from birdmb._typing import FloatArray
-from birdmb.errors import StateError
-from birdmb.orbits.errors import ArgumentError
+from birdmb.errors import ArgumentError, StateError
 from birdmb.orbits.problem import HasStateScale, Model, Scalable
 from birdmb.orbits.segments import sample
 

@@ -9,11 +9,10 @@ from typing import Literal, TypedDict, TypeVar, Unpack, get_args, overload
 import numpy as np
 import numpy.typing as npt
 
-from birdmb.errors import OrbitError, StateError
+from birdmb.errors import ArgumentError, OrbitError, StateError
 from birdmb.orbits.collocation_search import FEWEST_INSTANTS, search_by_collocation
 from birdmb.orbits.cycle import LimitCycle
 from birdmb.orbits.errors import (
-    ArgumentError,
     NotSmoothError,
     require_tolerance,
 )

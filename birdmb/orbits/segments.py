@@ -14,8 +14,7 @@ from typing import Literal, TypeVar, cast
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.errors import StateError
-from birdmb.orbits.errors import ArgumentError
+from birdmb.errors import ArgumentError, StateError
 from birdmb.orbits.problem import (
     HasCoarser,
     HasRhs,

@@ -12,11 +12,10 @@ import numpy.typing as npt
 import scipy.sparse as sp
 
 from birdmb._typing import FloatArray
-from birdmb.errors import StateError
+from birdmb.errors import ArgumentError, StateError
 from birdmb.orbits.agreement import jacobian_gaps
 from birdmb.orbits.cycle import LimitCycle, cycle_type
 from birdmb.orbits.errors import (
-    ArgumentError,
     ConvergenceError,
     EquilibriumError,
 )

@@ -199,3 +199,22 @@ def test_multibody_goes_to_rigid_with_the_wings_mass(ibis_tail):
         gaps.append(np.abs(np.sort_complex(found.multipliers) - np.sort_complex(rigid.multipliers)))
     assert gaps[1].max() < 1e-3
     assert np.log10(gaps[0].max() / gaps[1].max()) == pytest.approx(1.0, abs=0.1)
+
+
+def test_turning_the_heading_changes_nothing(model):
+    """What the heading turns are the horizontal components of velocity, force and acceleration."""
+    x = aside(model, 0.03)
+    turn = Rotation.from_euler("Z", 1.2).as_matrix()
+    q, v = model.coordinates(0.03, x)
+    turned_q, turned_v = q.copy(), v.copy()
+    turned_q[3] += 1.2
+    turned_v[:3] = turn @ v[:3]
+    accelerations = []
+    air = np.array([1.0, -2.0, 0.5])
+    for at, moves in ((q, v), (turned_q, turned_v)):
+        forces = model.tree.forces(0.03, at, moves, air)
+        (mass,), (bias,) = model.tree.inertia.at(at[None], moves[None])
+        accelerations.append(np.linalg.solve(mass, forces - bias))
+    straight, turned = accelerations
+    straight[:3] = turn @ straight[:3]
+    np.testing.assert_allclose(turned, straight, rtol=1e-9, atol=1e-9 * np.abs(straight).max())
