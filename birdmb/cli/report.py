@@ -128,7 +128,7 @@ def _method(cycle: FlightCycle, model: BirdModel) -> list[tuple[str, str, str, s
     error = f"{cycle.integration_error:.1e}"
     if cycle.nodes is not None:
         return [
-            ("method", "collocation", "", f"{cycle.nodes} nodes"),
+            ("method", "collocation", "", f"{cycle.nodes} nodes{_mesh(cycle)}"),
             ("error of the states", error, "", "in typical sizes, against more nodes"),
             ("flown closure", f"{cycle.flown_closure:.1e}", "", f"a check: {_flown(model)}"),
         ]
@@ -143,6 +143,10 @@ def _method(cycle: FlightCycle, model: BirdModel) -> list[tuple[str, str, str, s
             "counted in their errors above",
         ),
     ]
+
+
+def _mesh(cycle: FlightCycle) -> str:
+    return "" if cycle.intervals is None else f" on a mesh of {cycle.intervals} intervals"
 
 
 def _flown(model: BirdModel) -> str:

@@ -38,6 +38,7 @@ def result_object(cycle: FlightCycle, validity: Validity, model_name: str) -> di
         "method": cycle.method,
         "method_reason": cycle.method_reason,
         "nodes": cycle.nodes,
+        "intervals": cycle.intervals,
         "flown_closure": finite(cycle.flown_closure),
         "iterations": len(cycle.iterations) - 1,
         "steps_per_beat": model.steps_per_beat,

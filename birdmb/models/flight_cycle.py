@@ -67,7 +67,7 @@ class FlightCycle(SteppedCycle):
     @cached_property
     def _states_of_beat(self) -> tuple[FloatArray, FloatArray]:
         """Times (K,) and states (K, n) of the beat."""
-        if self.nodes is None:
+        if self.nodes is None or self.pieces is not None:
             steps = self.model.steps_per_beat
         else:
             steps = max(STEPS_PER_BEAT, _INSTANTS_PER_NODE * self.nodes)

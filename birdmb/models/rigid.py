@@ -43,7 +43,7 @@ from birdmb.wing.stacked import StackedShapes
 _ORDER = 4
 _TOLERANCE = 1e-6
 _MOST_STEPS = 1000
-_TABLES_KEPT = 64
+_PHASES_KEPT = 20_000  # at some 30 kB each
 _PHASES = 16  # enough for means over a beat, to guess from
 
 
@@ -97,6 +97,7 @@ class RigidModel(BirdModel):
         refuse_asymmetric(bird, self.motion)
         self.state_names, self.state_units = self.motion.states, self.motion.units
         self._constants = (self.airframe, rigid_body(bird, self.motion))
+        self._phases_kept = 0
         self._tables: dict[tuple[float, float, int] | bytes, RigidTable] = {}
 
     @cached_property
@@ -271,9 +272,12 @@ class RigidModel(BirdModel):
     def _kept(self, key: tuple[float, float, int] | bytes, times: FloatArray) -> RigidTable:
         table = self._tables.get(key)
         if table is None:
-            if len(self._tables) >= _TABLES_KEPT:
+            table = self._tabulated(times)
+            self._phases_kept += times.size
+            if self._phases_kept > _PHASES_KEPT:
                 self._tables.clear()
-            table = self._tables[key] = self._tabulated(times)
+                self._phases_kept = times.size
+            self._tables[key] = table
         return table
 
     def _tabulated(self, times: FloatArray) -> RigidTable:

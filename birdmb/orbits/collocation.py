@@ -131,6 +131,10 @@ class CollocationEquations:
         points, period = self.unpack(u)
         return points[0] * self.rhs.scale, period
 
+    def path(self, u: FloatArray) -> FloatArray:
+        """States (N, n) at the nodes, in their own units."""
+        return self.unpack(u)[0] * self.rhs.scale
+
     def closure(self, residual: FloatArray) -> float:
         """Largest mismatch of slopes, in the units of the states per period."""
         gaps = residual[:-1] if self.autonomous else residual
@@ -240,11 +244,13 @@ def collocate(
     fixed: bool = False,
     shortest_damping: float = SHORTEST_DAMPING,
     callback: Callable[[Iteration], None] | None = None,
+    path_of: Callable[[EquationsT, FloatArray], FloatArray] | None = None,
 ) -> Collocated[EquationsT]:
     """Solve the equations on as many nodes as the orbit needs, from the unknowns `u`.
 
     The number of nodes grows by half until the correction that a Newton step on half as many again
     makes is below `accuracy` (state scales). `fixed`: the number given is kept, whatever it leaves.
+    `path_of`: the states of unknowns, for a `NotSmoothError` to keep.
 
     Raises:
         StateError: the right-hand side fails at the guess.
@@ -290,7 +296,8 @@ def collocate(
             continue
         roughly = True
         errors.append(error)
-        _refuse_rough(equations, u, errors, accuracy, most_nodes, history)
+        path = None if path_of is None else path_of(equations, u)
+        _refuse_rough(equations, u, errors, accuracy, most_nodes, history, path)
         first = resampled(jacobians, finer.nodes)
         equations, u = finer, finer_u
 
@@ -330,6 +337,7 @@ def _refuse_rough(
     accuracy: float,
     most_nodes: int,
     history: list[Iteration],
+    path: FloatArray | None,
 ) -> None:
     """Raise `NotSmoothError` where the `errors` so far will not reach the accuracy."""
     nodes = equations.nodes
@@ -352,6 +360,7 @@ def _refuse_rough(
         x,
         errors[-1],
         history,
+        path,
     )
 
 

@@ -25,6 +25,8 @@ from birdmb.orbits.errors import ConvergenceError, NotSmoothError
 from birdmb.orbits.iteration import Iteration
 from birdmb.orbits.newton import Damping
 from birdmb.orbits.periodicity import require_period
+from birdmb.orbits.piecewise import GAUSS, PiecewiseEquations, mesh_along, uniform
+from birdmb.orbits.piecewise_search import PARTS, search_piecewise
 from birdmb.orbits.problem import HasGuessedPath, Model
 from birdmb.orbits.result import FloquetResult
 from birdmb.orbits.right_hand_side import RightHandSide
@@ -42,6 +44,8 @@ from birdmb.threads import one_thread
 
 # Fewer instants do not show a path: it is then flown from them.
 FEWEST_INSTANTS = 9
+# To begin with on a mesh: instants of a guessed path, and intervals of each part of it.
+_GUESSED, _INTERVALS = 1025, 2
 _Found = Collocated[CollocationEquations]
 CycleT = TypeVar("CycleT", bound=LimitCycle)
 
@@ -99,6 +103,7 @@ def search_by_collocation(
             most_nodes=most_nodes,
             fixed=nodes is not None,
             callback=callback,
+            path_of=CollocationEquations.path,
         )
 
     found = _on_enough_nodes(search, path, period, scale, most_nodes if nodes is None else first)
@@ -129,10 +134,54 @@ def collocated_cycle(
     )
 
 
+@one_thread()
+def search_on_mesh(
+    model: Model,
+    guess: npt.ArrayLike | FloquetResult | None,
+    failed: OrbitError | StateError,
+    *,
+    period_guess: float | None,
+    start_time: float,
+    damping: Damping,
+    tolerance: float,
+    accuracy: float,
+    max_iterations: int,
+    callback: Callable[[Iteration], None] | None,
+) -> LimitCycle:
+    """Find an orbit on a mesh, from what another search that `failed` came to or from the guess.
+
+    Arguments and errors of `find_limit_cycle`.
+    """
+    autonomous, period = period_or_guess(model, period_guess)
+    if isinstance(failed, NotSmoothError) and failed.path is not None:
+        path = failed.path
+        period = failed.history[-1].period if autonomous else period
+    else:
+        path = guessed_path(model, guess, start_time, period, _GUESSED)
+    declared = declared_scale(model)
+    scale = sizes_along(model, path, start_time, period) if declared is None else declared
+    rhs = RightHandSide(model, scale)
+    mesh = mesh_along(path / scale, uniform(_INTERVALS * PARTS))
+    equations = PiecewiseEquations(rhs, start_time, period, autonomous, mesh)
+    inside = equations.mesh[:-1, None] + equations.widths[:, None] * np.append(0.0, GAUSS)
+    values = along_path(path / scale, inside.ravel()).reshape(*inside.shape, -1)
+    reason = str(failed).partition(" Take method=")[0]
+    return search_piecewise(
+        equations,
+        equations.pack(values, period),
+        damping=damping,
+        tolerance=tolerance,
+        accuracy=accuracy,
+        max_iterations=max_iterations,
+        reason=f"a mesh was taken: {reason}",
+        callback=callback,
+    )
+
+
 def nodes_shown(guess: npt.ArrayLike | FloquetResult | None) -> int:
     """The odd number of nodes that a guess is good for; 0 where it tells of none."""
     if isinstance(guess, FloquetResult):
-        shown = guess.nodes if isinstance(guess, LimitCycle) else None
+        shown = guess.nodes if isinstance(guess, LimitCycle) and guess.pieces is None else None
         return fewer_nodes(shown or 1)
     shape = () if guess is None else np.shape(guess)
     return shape[0] if len(shape) == 2 and shape[0] % 2 else 0

@@ -16,7 +16,7 @@ from birdmb.errors import ArgumentError
 from birdmb.orbits.branch import Branch
 from birdmb.orbits.branch_points import Bifurcation, BranchPoint
 from birdmb.orbits.cycle import LimitCycle
-from birdmb.orbits.errors import BranchStopped, SingularJacobianError
+from birdmb.orbits.errors import BranchStopped, NotSmoothError, SingularJacobianError
 from birdmb.orbits.extended import ExtendedEquations, Family
 from birdmb.orbits.extended_collocation import ExtendedCollocation
 from birdmb.orbits.extended_shooting import ExtendedShooting
@@ -128,6 +128,7 @@ def continue_branch(
             jacobian=jacobian,
             executor=executor,
         )
+        _refuse_mesh(cycle, f"{parameter_name} = {begin:.8g}")
         scale, period, taken = cycle.state_scale, cycle.period, cycle.method
         # Multipliers may have taken more instants than the orbit has nodes.
         orbit = resampled(cycle.points, cycle.nodes or len(cycle.points))
@@ -242,3 +243,15 @@ def _can_be_stored(text: str) -> bool:
     except UnicodeEncodeError:
         return False
     return "\0" not in text
+
+
+def _refuse_mesh(cycle: LimitCycle, where: str) -> None:
+    """Raise `NotSmoothError` for an orbit that needs a mesh."""
+    if cycle.pieces is not None:
+        raise NotSmoothError(
+            f"The orbit at {where} is too rough for Fourier collocation, by which branches are "
+            f'followed; take method="shooting".',
+            cycle.x0,
+            cycle.state_error,
+            cycle.iterations,
+        )

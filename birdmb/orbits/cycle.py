@@ -11,6 +11,7 @@ import xarray as xr
 
 from birdmb.orbits.iteration import Iteration
 from birdmb.orbits.ode import Trajectory
+from birdmb.orbits.piecewise import PiecewisePath
 from birdmb.orbits.problem import HasLimitCycleType, Model
 from birdmb.orbits.result import FloquetResult
 from birdmb.orbits.trigonometric import interpolated
@@ -29,16 +30,19 @@ class LimitCycle(FloquetResult):
 
     Attributes:
         iterations: the accepted iterations of the search, the guess first.
-        method_reason: why shooting was taken; empty for collocation.
+        method_reason: why shooting was taken, or a mesh; empty for Fourier collocation.
         nodes: number of collocation nodes; `None` for shooting.
         state_error: largest error of the states of a collocated orbit, in units of the state scale:
-            what half as many nodes again make of it; 0 for shooting.
+            what half as many nodes again make of it, or a mesh with all intervals halved; 0 for
+            shooting.
+        pieces: the orbit's polynomials on the intervals of a mesh; `None` where it has none.
     """
 
     iterations: tuple[Iteration, ...]
     method_reason: str = ""
     nodes: int | None = None
     state_error: float = 0.0
+    pieces: PiecewisePath | None = None
 
     @classmethod
     def of(
@@ -48,6 +52,7 @@ class LimitCycle(FloquetResult):
         method_reason: str = "",
         nodes: int | None = None,
         state_error: float = 0.0,
+        pieces: PiecewisePath | None = None,
     ) -> Self:
         """The cycle of a linearised orbit and of the search that led to it."""
         known = {field.name: getattr(orbit, field.name) for field in fields(FloquetResult)}
@@ -57,7 +62,13 @@ class LimitCycle(FloquetResult):
             method_reason=method_reason,
             nodes=nodes,
             state_error=state_error,
+            pieces=pieces,
         )
+
+    @property
+    def intervals(self) -> int | None:
+        """Number of the mesh's intervals; `None` where there is no mesh."""
+        return None if self.pieces is None else len(self.pieces.values)
 
     @property
     def method(self) -> OrbitMethod:
@@ -73,7 +84,8 @@ class LimitCycle(FloquetResult):
         """States at `times` (k,) in s, any times: the orbit is continued periodically.
 
         By default 201 times over the period from the start time. A collocated orbit is its
-        trigonometric interpolant, a shot one is flown from the starts of its segments.
+        trigonometric interpolant or its polynomials, a shot one is flown from the starts of its
+        segments.
         """
         if self.method == "shooting":
             return super().trajectory(times)
@@ -82,6 +94,8 @@ class LimitCycle(FloquetResult):
         else:
             at = np.asarray(times, float)
         phases = (at - self.start_time) / self.period
+        if self.pieces is not None:
+            return Trajectory(at, self.pieces.states(phases))
         return Trajectory(at, interpolated(self.points, phases))
 
     def to_xarray(self) -> xr.Dataset:
@@ -93,6 +107,7 @@ class LimitCycle(FloquetResult):
                 method=self.method,
                 method_reason=self.method_reason,
                 nodes=self.nodes or 0,
+                intervals=self.intervals or 0,
                 state_error=self.state_error,
             )
         )

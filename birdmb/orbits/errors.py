@@ -102,7 +102,24 @@ class ConvergenceError(OrbitError):
 
 
 class NotSmoothError(ConvergenceError):
-    """The orbit is too rough for collocation: its error does not fall off with the nodes."""
+    """The orbit is too rough for collocation: its error does not fall off with the nodes.
+
+    Attributes:
+        path: states (N, n) of the best orbit reached at N even instants; none if there are none.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        best_x: FloatArray,
+        residual: float,
+        history: Sequence[Iteration] = (),
+        path: FloatArray | None = None,
+    ) -> None:
+        """Keep what had been reached."""
+        super().__init__(message, best_x, residual, history)
+        self.args = (message, best_x, residual, history, path)
+        self.path = path
 
 
 class SingularJacobianError(ConvergenceError):

@@ -122,10 +122,11 @@ def ordered_spectrum(
     left, along = left[:, order], along[:, :, order]
     start = along[0]
     peak = start[np.abs(start).argmax(axis=0), np.arange(len(values))]
-    along = along / peak * scale[:, None]
-    return Spectrum(
-        values[order], errors[order], along[0], left * peak.conj() / scale[:, None], along
-    )
+    # A mode whose multiplier underflows is not known along the orbit.
+    with np.errstate(invalid="ignore", over="ignore"):
+        along = along / peak * scale[:, None]
+        left = left * peak.conj() / scale[:, None]
+    return Spectrum(values[order], errors[order], along[0], left, along)
 
 
 def product_multipliers(factors: FloatArray, errors: FloatArray, scale: FloatArray) -> Spectrum:

@@ -10,7 +10,11 @@ import numpy as np
 import numpy.typing as npt
 
 from birdmb.errors import ArgumentError, OrbitError, StateError
-from birdmb.orbits.collocation_search import FEWEST_INSTANTS, search_by_collocation
+from birdmb.orbits.collocation_search import (
+    FEWEST_INSTANTS,
+    search_by_collocation,
+    search_on_mesh,
+)
 from birdmb.orbits.cycle import LimitCycle
 from birdmb.orbits.errors import (
     NotSmoothError,
@@ -88,12 +92,15 @@ def find_limit_cycle(
 ) -> LimitCycle:
     """Find a periodic orbit of a model and its Floquet multipliers.
 
-    Two methods. Fourier collocation satisfies the right-hand side at N equidistant nodes of the
+    Three methods. Fourier collocation satisfies the right-hand side at N equidistant nodes of the
     period, by a trigonometric interpolant; N grows until the orbit's error is below `accuracy`.
     It is fast and accurate where the orbit is smooth, however unstable or stiff, and needs the
-    model's `rhs` or `rates`. Multiple shooting closes the model's own flow over M segments; it
-    needs no smoothness. "auto" takes collocation where it can and goes on to shooting where it
-    fails; `method_reason` of the result says why.
+    model's `rhs` or `rates`. Collocation by polynomials on a mesh, which is refined where the orbit
+    is rough, takes many more nodes and holds orbits with kinks and fast phases as accurately.
+    Multiple shooting closes the model's own flow over M segments; it needs no smoothness.
+    "collocation" is the first, and the second where that fails. "auto" takes the first where it
+    can, then shooting, which is cheaper beside a rough orbit, and the mesh where shooting fails,
+    too; `method_reason` of the result says why.
 
     Forced systems (`model.period` given): the states are unknown. Autonomous ones (`model.period`
     is `None`): so is the period. Only steps that reduce the residual are accepted. Where the state
@@ -137,17 +144,11 @@ def find_limit_cycle(
             which the right-hand side does not repeat.
         StateError: the right-hand side or the flow fails at the guess.
         ConvergenceError: no orbit was found; it keeps the best point.
-        NotSmoothError: collocation was asked for and the orbit is too rough for it.
+        NotSmoothError: collocation was asked for and the orbit is too rough for it and a mesh.
         SingularJacobianError: the equations have no unique solution where the search ended.
         EquilibriumError: the search ended on an equilibrium, or at period zero.
     """
-    if method not in get_args(SearchMethod):
-        choice = ", ".join(f'"{each}"' for each in get_args(SearchMethod))
-        raise ArgumentError(f'method must be one of {choice}, not "{method}".')
-    require_tolerance("tolerance", tolerance)
-    require_tolerance("accuracy", accuracy)
-    if max_iterations < 1:
-        raise ArgumentError(f"max_iterations must be at least 1, not {max_iterations}.")
+    _require_options(method, tolerance, accuracy, max_iterations)
     if isinstance(guess, FloquetResult) and period_guess is None and model.period is None:
         period_guess = guess.period
     shooting = _options_of_shooting(segments, jacobian)
@@ -156,56 +157,93 @@ def find_limit_cycle(
         raise ArgumentError(f'method="collocation" cannot be taken: {reason}.')
     if nodes is not None and (method == "shooting" or reason):
         raise ArgumentError("nodes are of collocation; shooting takes segments.")
-    start = guess
+    common: _Common = {
+        "start_time": start_time,
+        "damping": damping,
+        "tolerance": tolerance,
+        "max_iterations": max_iterations,
+        "callback": callback,
+    }
+    rough: OrbitError | StateError | None = None
     if method != "shooting" and not reason:
         try:
             return search_by_collocation(
                 model,
                 guess,
                 period_guess=period_guess,
-                start_time=start_time,
-                damping=damping,
-                tolerance=tolerance,
-                max_iterations=max_iterations,
                 nodes=nodes,
                 accuracy=accuracy,
                 most_nodes=most_nodes(model, method),
-                callback=callback,
+                **common,
             )
         except ArgumentError:
             raise
         except (OrbitError, StateError) as error:
-            if method == "collocation" or nodes is not None:
+            if nodes is not None:
                 raise
-            reason, start = f"collocation failed: {error}", _beginning(guess)
-            if isinstance(error, NotSmoothError):
-                reason = str(error).partition(" Take method=")[0]
-                if error.residual < NEAR:
-                    start = error.best_x
-                    period_guess = error.history[-1].period if period_guess else None
+            rough, reason = error, f"collocation failed: {str(error).partition(' Take method=')[0]}"
+
+    def on_mesh(error: OrbitError | StateError) -> LimitCycle:
+        """The orbit on a mesh; raises `error` where there is none either."""
+        try:
+            return search_on_mesh(
+                model, guess, error, period_guess=period_guess, accuracy=accuracy, **common
+            )
+        except (OrbitError, StateError) as failure:
+            raise error from failure
+
+    if rough is not None and method == "collocation":
+        return on_mesh(rough)
+    start, period = _beginning(guess, rough), period_guess
+    if isinstance(rough, NotSmoothError) and rough.residual < NEAR and period_guess:
+        period = rough.history[-1].period
     count = 1 if segments is None else segments
-    return search_by_shooting(
-        model,
-        _points(start, count),
-        period_guess=period_guess,
-        segments=count,
-        start_time=start_time,
-        damping=damping,
-        tolerance=tolerance,
-        max_iterations=max_iterations,
-        jacobian=jacobian,
-        jacobian_guess=jacobian_guess,
-        executor=executor,
-        callback=callback,
-        reason=reason or 'method="shooting" was asked for',
-    )
+    try:
+        return search_by_shooting(
+            model,
+            _points(start, count),
+            period_guess=period,
+            segments=count,
+            jacobian=jacobian,
+            jacobian_guess=jacobian_guess,
+            executor=executor,
+            reason=reason or 'method="shooting" was asked for',
+            **common,
+        )
+    except (OrbitError, StateError) as error:
+        if not isinstance(rough, NotSmoothError):
+            raise
+        return on_mesh(error)
+
+
+def _require_options(method: str, tolerance: float, accuracy: float, max_iterations: int) -> None:
+    """Refuse options out of range; raises `ArgumentError`."""
+    if method not in get_args(SearchMethod):
+        choice = ", ".join(f'"{each}"' for each in get_args(SearchMethod))
+        raise ArgumentError(f'method must be one of {choice}, not "{method}".')
+    require_tolerance("tolerance", tolerance)
+    require_tolerance("accuracy", accuracy)
+    if max_iterations < 1:
+        raise ArgumentError(f"max_iterations must be at least 1, not {max_iterations}.")
+
+
+class _Common(TypedDict):
+    """What all methods take."""
+
+    start_time: float
+    damping: Damping
+    tolerance: float
+    max_iterations: int
+    callback: Callable[[Iteration], None] | None
 
 
 def _beginning(
-    guess: npt.ArrayLike | FloquetResult | None,
+    guess: npt.ArrayLike | FloquetResult | None, failed: OrbitError | StateError | None
 ) -> npt.ArrayLike | FloquetResult | None:
-    """A guess that collocation was given, as one that shooting takes: its first state."""
-    if guess is None or isinstance(guess, FloquetResult):
+    """What shooting starts from, after collocation, if it was tried, `failed`."""
+    if isinstance(failed, NotSmoothError) and failed.residual < NEAR:
+        return failed.best_x
+    if failed is None or guess is None or isinstance(guess, FloquetResult):
         return guess
     states = np.asarray(guess, float)
     return states[0] if states.ndim == 2 else states

@@ -95,3 +95,19 @@ def test_a_tethered_bird_is_collocated_too(ibis_compliant):
     shot = birdmb.find_limit_cycle(model, found.x0, method="shooting")
     assert found.method == "collocation"
     assert (apart(found, shot) < found.verdict_errors + shot.verdict_errors + 1e-9).all()
+
+
+def test_the_published_wing_is_met_on_a_mesh(ibis_published):
+    """It jumps in time: the mesh crowds there, and says the same as shooting within both bars."""
+    bird = ibis_published.with_values({"wing.discretisation.elements": 8})
+    cycle = birdmb.find_limit_cycle(birdmb.RigidModel(bird), method="collocation", accuracy=1e-5)
+    assert cycle.intervals is not None
+    assert "too rough" in cycle.method_reason
+    shot = birdmb.find_limit_cycle(birdmb.RigidModel(bird, steps_per_beat=960))
+    assert shot.method == "shooting"
+    apart = np.abs((cycle.x0 - shot.x0) / cycle.state_scale).max()
+    assert apart < cycle.state_error + 10 * shot.integration_error
+    gaps = np.abs(cycle.multipliers - shot.multipliers)
+    assert (gaps < cycle.multiplier_errors + 1e-4).all()
+    assert cycle.energy_imbalance < 1e-3
+    assert cycle.flown_closure < 1e-3

@@ -12,6 +12,7 @@ from birdmb.orbits import (
     ConvergenceError,
     NotSmoothError,
     OdeModel,
+    continue_branch,
     find_limit_cycle,
 )
 from birdmb.orbits.trigonometric import (
@@ -200,14 +201,20 @@ def kinked(t, x):
 
 def test_a_kink_is_recognised_and_left_to_shooting():
     model = OdeModel(kinked, ("x", "v"), period=2 * np.pi)
-    with pytest.raises(NotSmoothError, match=r"too rough for collocation: with .* nodes its error"):
-        collocated(model, [0.5, 0.0], accuracy=1e-10)
+    on_mesh = collocated(model, [0.5, 0.0], accuracy=1e-10)
+    assert on_mesh.intervals is not None
+    assert "too rough for collocation: with" in on_mesh.method_reason
     found = find_limit_cycle(model, [0.5, 0.0], accuracy=1e-10)
     assert found.method == "shooting"
     assert found.nodes is None
     assert "too rough for collocation" in found.method_reason
     shot = find_limit_cycle(model, [0.5, 0.0], method="shooting")
     assert found.x0 == pytest.approx(shot.x0, abs=1e-8)
+    assert on_mesh.x0 == pytest.approx(shot.x0, abs=1e-8)
+    apart = np.abs(on_mesh.multipliers - shot.multipliers)
+    assert (apart <= on_mesh.multiplier_errors + shot.multiplier_errors).all()
+    with pytest.raises(NotSmoothError, match=r'take method="shooting"'):
+        continue_branch(lambda _: model, (0.0, 1.0), [0.5, 0.0], method="collocation")
     assert shot.method_reason == 'method="shooting" was asked for'
 
 

@@ -49,9 +49,10 @@ def sensitivities(
 
     Returns:
         By name of a parameter, (n + k,): in units of the state scale, and of the distance between
-        the bounds, by the parameter's unit. Without those parameters whose step leads to no flight.
+        the bounds, by the parameter's unit. Without those parameters whose step leads to no flight;
+        none of an orbit on a mesh.
     """
-    if not steps:
+    if not steps or cycle.pieces is not None:
         return {}
     names = () if trimming is None else tuple(trimming.parameters)
     bounds = [] if trimming is None else [trimming.parameters[name] for name in names]
