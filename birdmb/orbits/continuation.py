@@ -15,7 +15,7 @@ import numpy.typing as npt
 from birdmb.errors import ArgumentError
 from birdmb.orbits.branch import Branch
 from birdmb.orbits.branch_points import Bifurcation, BranchPoint
-from birdmb.orbits.cycle import LimitCycle
+from birdmb.orbits.cycle import LimitCycle, OrbitMethod
 from birdmb.orbits.errors import BranchStopped, NotSmoothError, SingularJacobianError
 from birdmb.orbits.extended import ExtendedEquations, Family
 from birdmb.orbits.extended_collocation import ExtendedCollocation
@@ -128,8 +128,7 @@ def continue_branch(
             jacobian=jacobian,
             executor=executor,
         )
-        _refuse_mesh(cycle, f"{parameter_name} = {begin:.8g}")
-        scale, period, taken = cycle.state_scale, cycle.period, cycle.method
+        scale, period, taken = cycle.state_scale, cycle.period, _followed_by(cycle, begin)
         # Multipliers may have taken more instants than the orbit has nodes.
         orbit = resampled(cycle.points, cycle.nodes or len(cycle.points))
     else:
@@ -245,13 +244,14 @@ def _can_be_stored(text: str) -> bool:
     return "\0" not in text
 
 
-def _refuse_mesh(cycle: LimitCycle, where: str) -> None:
-    """Raise `NotSmoothError` for an orbit that needs a mesh."""
+def _followed_by(cycle: LimitCycle, parameter: float) -> OrbitMethod:
+    """How a branch goes on from an orbit; raises `NotSmoothError` for one that needs a mesh."""
     if cycle.pieces is not None:
         raise NotSmoothError(
-            f"The orbit at {where} is too rough for Fourier collocation, by which branches are "
-            f'followed; take method="shooting".',
+            f"The orbit at parameter {parameter:.8g} is too rough for Fourier collocation, by "
+            f'which branches are followed; take method="shooting".',
             cycle.x0,
             cycle.state_error,
             cycle.iterations,
         )
+    return cycle.method
