@@ -8,6 +8,8 @@ chapter 5; Doedel, Keller & Kernevez (1991).
 
 from __future__ import annotations
 
+import itertools
+import math
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -24,7 +26,9 @@ _EPS = float(np.finfo(float).eps)
 _NOISE = 100.0
 # By how much the defects of both halves of an interval differ where it holds a kink.
 _KINK = 4.0
-_MOST_PARTS = 16
+# Part of the largest rate that two neighbouring Gauss points on a fine mesh differ by at a jump.
+_JUMP = 0.02
+_MOST_PARTS, _FEWEST_PARTS = 16, 0.25
 
 
 def _basis() -> tuple[FloatArray, FloatArray, list[Polynomial]]:
@@ -178,6 +182,30 @@ class PiecewiseEquations:
         jumps = np.roll(first, -1, axis=0) - last
         return np.asarray(jumps * GAUSS[0] * np.maximum(widths, np.roll(widths, -1, axis=0)))
 
+    def jumps_by_state(self, u: FloatArray) -> float | None:
+        """Time in s of a jump of the slopes that the states cause, not the time; `None` if none.
+
+        Held at the state of a border, the right-hand side jumps there from the Gauss point before
+        to the one after if time makes it jump.
+        """
+        values, period = self.unpack(u)
+        widths = self.widths
+        rates = period * self.rates(values, period)
+        before, after = rates[:, -1], np.roll(rates[:, 0], -1, axis=0)
+        jumps = np.abs(after - before).max(axis=1)
+        size = float(np.abs(rates).max())
+        found = np.flatnonzero(jumps > _JUMP * size)
+        if not found.size:
+            return None
+        states = np.roll(values[:, 0], -1, axis=0)[found]
+        border = self.mesh[1:][found]
+        back, on = widths[found] * GAUSS[0], np.roll(widths, -1)[found] * GAUSS[0]
+        times = [self.start + period * phases for phases in (border - back, border + on)]
+        held = [period * self.rhs.rates(at, states) for at in times]
+        by_time = np.abs(held[1] - held[0]).max(axis=1)
+        guilty = np.flatnonzero(by_time < 0.5 * jumps[found])
+        return None if not guilty.size else float(self.start + period * border[guilty[0]])
+
     def as_gaps(self, gaps: FloatArray) -> FloatArray:
         """A residual that consists of gaps (J, n) between the intervals."""
         found = np.zeros((self.intervals, STAGES + 1, gaps.shape[1]))
@@ -291,17 +319,31 @@ def mesh_along(path: FloatArray, mesh: FloatArray) -> FloatArray:
     return split(mesh, np.clip(np.ceil(np.diff(at_borders) / mean), 1, _MOST_PARTS).astype(int))
 
 
-def parts_for(halves: FloatArray, goal: float) -> IntArray:
-    """Into how many parts (J,) to cut intervals so that their defects come below a `goal`.
+def parts_for(halves: FloatArray, goal: float) -> FloatArray:
+    """How many intervals (J,) it takes in place of each so that their defects come to a `goal`.
 
-    `halves` (J, 2) are those of both halves of each. A defect falls with the width to the power of
-    M + 1 where the orbit is smooth; where one half has far more of it than the other there is a
-    kink or a jump, beside which it falls with the width itself.
+    Parts of one where an interval may be longer. `halves` (J, 2) are the defects of both halves of
+    each. A defect falls with the width to the power of M + 1 where the orbit is smooth; where one
+    half has far more of it than the other there is a kink or a jump, beside which it falls with the
+    width itself.
     """
     largest, least = halves.max(axis=1), halves.min(axis=1)
     rough = largest > _KINK * least
-    order = np.where(rough, 1.0, STAGES + 1.0)
-    most = np.where(rough, _MOST_PARTS, 4)
-    with np.errstate(divide="ignore"):
-        wanted = np.ceil((largest / goal) ** (1.0 / order))
-    return np.clip(np.nan_to_num(wanted, nan=1.0, posinf=np.inf), 1, most).astype(np.int64)
+    order = np.where(rough & (largest > goal), 1.0, STAGES + 1.0)
+    return np.clip((largest / goal) ** (1.0 / order), _FEWEST_PARTS, _MOST_PARTS)
+
+
+def redistributed(mesh: FloatArray, parts: FloatArray, borders: FloatArray) -> FloatArray:
+    """A mesh with about so many intervals in place of each as `parts` (J,) says.
+
+    The phases `borders` (P + 1,), which the mesh has, stay in it.
+    """
+    wanted = np.append(0.0, np.cumsum(parts))
+    pieces = []
+    for low, high in itertools.pairwise(np.interp(borders, mesh, wanted).tolist()):
+        count = max(1, math.ceil(high - low))
+        pieces.append(np.interp(np.linspace(low, high, count, endpoint=False), wanted, mesh))
+    found = np.append(np.concatenate(pieces), 1.0)
+    starts = np.cumsum([0, *(len(piece) for piece in pieces[:-1])])
+    found[starts] = borders[:-1]
+    return found

@@ -21,6 +21,7 @@ from birdmb.orbits.piecewise import (
     PiecewiseEquations,
     PiecewisePath,
     parts_for,
+    redistributed,
     split,
     uniform,
 )
@@ -35,6 +36,8 @@ _ERROR_PER_DIFFERENCE = 3.0
 # Of the goal: what the meshes leave adds up from many intervals.
 _MARGIN = 0.5
 _MOST_MESHES = 20
+_LEAST_CHANGE = 2.0
+_COUNTS = 0.01  # part of the largest defect
 
 
 @dataclass(frozen=True)
@@ -102,6 +105,7 @@ def search_piecewise(
         )
         solved = _compared(equations, u, residual)
         if solved.state_error <= accuracy:
+            _refuse_jumps_by_state(solved, history)
             return _cycle(solved, tuple(history), reason)
         mesh = _refined(solved, accuracy)
         if mesh is None:
@@ -117,6 +121,22 @@ def search_piecewise(
         solved.state_error,
         history,
     )
+
+
+def _refuse_jumps_by_state(solved: _Solved, history: list[Iteration]) -> None:
+    """Raise `NotSmoothError` where multipliers would lack what a moving jump does to neighbours."""
+    equations = solved.finer
+    at = equations.jumps_by_state(solved.finer_u)
+    if at is not None:
+        x, _ = equations.start_and_period(solved.finer_u)
+        raise NotSmoothError(
+            f"The right-hand side jumps near t = {at:.6g} s where a state passes a threshold: "
+            f"collocation finds the orbit, but not its multipliers, for neighbours jump at other "
+            f'times. Take method="shooting".',
+            x,
+            solved.state_error,
+            history,
+        )
 
 
 def _compared(equations: PiecewiseEquations, u: FloatArray, residual: FloatArray) -> _Solved:
@@ -142,15 +162,16 @@ def _compared(equations: PiecewiseEquations, u: FloatArray, residual: FloatArray
 
 
 def _refined(solved: _Solved, accuracy: float) -> FloatArray | None:
-    """The mesh with those intervals cut that leave the error; `None` if it would be too large."""
+    """A mesh on which all intervals leave as much error; `None` if it would be too large."""
     defects, equations = solved.defects, solved.equations
     largest = defects.max(axis=1)
     goal = _MARGIN * accuracy / solved.state_error * float(largest.sum())
-    # As if each interval were to leave as much as every other.
-    parts = parts_for(defects, goal / len(defects))
-    if (parts == 1).all():
-        parts = np.where(largest >= np.median(largest), 2, 1)
-    mesh = split(equations.mesh, parts)
+    # Those that leave next to nothing need no share of it.
+    count = max(PARTS, int(np.count_nonzero(largest > _COUNTS * largest.max())))
+    parts = parts_for(defects, goal / count)
+    if parts.max() < _LEAST_CHANGE:
+        parts = _LEAST_CHANGE * parts / parts.max()
+    mesh = redistributed(equations.mesh, parts, uniform(PARTS))
     unknowns = (len(mesh) - 1) * (solved.u.size // equations.intervals)
     return mesh if unknowns <= _MOST_UNKNOWNS else None
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 
 import numpy as np
@@ -25,7 +26,9 @@ _ROUND_OFF = 1e-9  # m
 
 def bird_warnings(bird: Bird) -> list[str]:
     """One sentence for each thing to beware of."""
-    return [*_on_surroundings(bird), *_on_joints(bird), *_on_hinges(bird), *_on_wing(bird)]
+    each = (_on_surroundings(bird), _on_joints(bird), _on_hinges(bird), _on_wing(bird))
+    # Both wings may give the same cause.
+    return list(dict.fromkeys(itertools.chain.from_iterable(each)))
 
 
 def _on_surroundings(bird: Bird) -> Iterator[str]:

@@ -14,7 +14,7 @@ from birdmb.studies.cycles import ModelFactory
 from birdmb.topology import Bird
 from birdmb.topology.parts import BONES
 from birdmb.topology.unused import SPRING, own_names, unused_values
-from birdmb.topology.values import of_a_side
+from birdmb.topology.values import named_places, of_a_side
 
 # So many birds are looked at, before a value that none of them uses is refused.
 _LOOKED_AT = 200
@@ -64,7 +64,7 @@ def ignored_values(bird: Bird, model: ModelFactory) -> dict[str, str]:
     if not (isinstance(kind, type) and issubclass(kind, BirdModel)):
         return {}  # of a function of the user's nothing is known
     planar = options.get("motion", kind.motion.name) == "planar"
-    of_one_side = filter(of_a_side, bird.value_names())
+    of_one_side = [name for name, place in named_places(bird).items() if of_a_side(place)]
     names = dict.fromkeys([*_OF_MOTION_IN_SPACE, *of_one_side], _PLANAR) if planar else {}
     if not issubclass(kind, RigidModel):
         return names

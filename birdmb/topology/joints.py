@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any, ClassVar, Literal, Self
 
 from pydantic import (
@@ -21,14 +22,17 @@ from birdmb.topology.parts import NO_DIRECTION, Bone, Part
 
 Side = Literal["right", "left"]
 SIDES: tuple[Side, Side] = ("right", "left")
+_OF_BOTH_SIDES = ("name", "segment", "axis", "mode", "twist")
+_OF_THE_SPRING = ("stiffness", "damping", "cubic_stiffness", "stiffness_below")
 
 
 def split_side(name: str) -> tuple[str, str]:
-    """Return a name without the side it ends in, and that side; "" where it names none."""
-    for side in SIDES:
-        if name.endswith(f".{side}"):
-            return name.removesuffix(f".{side}"), side
-    return name, ""
+    """Return a name without the side it ends in, and that side; "" where it names none.
+
+    The joint `"shoulder.left"` ends in none: a side stands behind the name of a joint.
+    """
+    owner, _, side = name.rpartition(".")
+    return (owner, side) if side in SIDES and "." in owner else (name, "")
 
 
 class JointSide(Part):
@@ -56,6 +60,18 @@ class JointSide(Part):
     phase: Angle | None = Field(
         default=None, description="phase at t = 0 there; rad, degrees as phase_deg"
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _leaves_the_shape_to_the_joint(cls, data: Any) -> Any:
+        for key in _OF_BOTH_SIDES:
+            if isinstance(data, Mapping) and key in data:
+                raise problem(
+                    f"{key} is the same on both sides; give it to the joint itself, "
+                    "beside left and right",
+                    key,
+                )
+        return data
 
     @property
     def own(self) -> dict[str, float]:
@@ -106,7 +122,7 @@ class Joint(Part):
 
     @model_serializer(mode="wrap")
     def _without_empty_sides(self, dump: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        # A bird whose sides are alike is the same value whether or not that was said.
+        # A side that is given no value is as none.
         table: dict[str, Any] = dump(self)
         for side in SIDES:
             if side in table:
@@ -146,6 +162,19 @@ class Joint(Part):
             return axis
         x, y, z = (component / length for component in axis)
         return x, y, z
+
+    @model_validator(mode="after")
+    def _springs_of_sides_are_used(self) -> Self:
+        for side in SIDES if self.mode == "prescribed" else ():
+            own: JointSide | None = getattr(self, side)
+            for key in _OF_THE_SPRING if own else ():
+                if own and getattr(own, key) not in (None, getattr(self, key)):
+                    raise problem(
+                        "a prescribed joint follows its driver whatever its spring; leave it out, "
+                        'or give the joint mode = "compliant"',
+                        f"{side}.{key}",
+                    )
+        return self
 
     @model_validator(mode="after")
     def _compliance_is_complete(self) -> Self:

@@ -46,6 +46,12 @@ def _of_joint(joint: Joint) -> Iterator[tuple[str, str]]:
     for name in places:
         reason = f"{name} is not driven, its amplitude is 0"
         yield from ((f"{name}.{key}", reason) for key in ("phase", "phase_deg"))
+    if joint.right and joint.left:
+        for key in joint.right.own.keys() & joint.left.own.keys():
+            reason = f"both sides of {joint.name} have {key} of their own"
+            yield f"{joint.name}.{key}", reason
+            if key in joint.angles:
+                yield f"{joint.name}.{key}_deg", reason
 
 
 def own_names(joint: Joint) -> tuple[str, ...]:

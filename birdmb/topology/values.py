@@ -79,7 +79,8 @@ def place_of(name: str, known: Mapping[str, Location], owner: str) -> Location:
     """
     if name not in known:
         # Names of one side are too like those of the joint to be told apart by their letters.
-        near = [k for k in known if of_a_side(name) or not of_a_side(k)]
+        asked = any(part in SIDES for part in name.split("."))
+        near = [k for k, place in known.items() if asked or not of_a_side(place)]
         raise TopologyError(
             f"{owner}: no value is called {shown(name)}; the nearest: {nearest(name, near)}"
         )
@@ -102,9 +103,9 @@ def value_at(document: Mapping[str, Any], place: Location) -> Any:
     return math.degrees(table[_other_unit(key)])
 
 
-def of_a_side(name: str) -> bool:
-    """Whether a dotted name is of one side of a joint."""
-    return any(part in SIDES for part in name.split("."))
+def of_a_side(place: Location) -> bool:
+    """Whether a place in a bird's document is of one side of a joint."""
+    return place[0] == "joints" and len(place) > 2 and place[2] in SIDES
 
 
 def put_values(

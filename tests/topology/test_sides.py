@@ -5,6 +5,8 @@ import math
 import pytest
 
 import birdmb
+from birdmb.studies.relevance import check_relevant
+from birdmb.topology.joints import split_side
 from birdmb.topology.unused import unused_values
 from birdmb.topology.writing import bird_text
 
@@ -56,7 +58,7 @@ def test_a_file_gives_sides_as_tables(ibis_compliant, tmp_path):
     path.write_text(given)
     assert birdmb.load_bird(path).side("left").joint(FLAP).damping == 0.3
     path.write_text(given.replace("damping = 0.3", "axis = [1, 0, 0]"))
-    with pytest.raises(birdmb.TopologyError, match=r"shoulder\.flap\.left\.axis: unknown key"):
+    with pytest.raises(birdmb.TopologyError, match=r"flap\.left\.axis: axis is the same on both"):
         birdmb.load_bird(path)
     path.write_text(given.replace("damping = 0.3", "damping = -1"))
     with pytest.raises(birdmb.TopologyError, match=r"shoulder\.flap\.left\.damping"):
@@ -91,3 +93,30 @@ def test_planar_flight_of_an_asymmetric_bird_is_refused(ibis_compliant):
     for model in (birdmb.RigidModel, birdmb.MultibodyModel):
         with pytest.raises(birdmb.TopologyError, match="left and the right wing differ"):
             model(bird)
+
+
+def test_parts_that_are_called_left_are_not_sides(ibis):
+    document = ibis.model_dump()
+    document["feathers"][1]["name"] = "left"
+    named = birdmb.Bird.model_validate(document)
+    check_relevant(named, {"feathers.left.length": [0.2, 0.3]}, birdmb.RigidModel)
+    assert split_side("shoulder.left") == ("shoulder.left", "")
+    assert split_side("shoulder.left.right") == ("shoulder.left", "right")
+    assert split_side("feathers.5.hinge.left") == ("feathers.5.hinge", "left")
+
+
+def test_what_both_sides_have_of_their_own_leaves_the_joints_unused(ibis_compliant):
+    one = ibis_compliant.with_values({f"{FLAP}.left.offset": 0.1, f"{FLAP}.left.stiffness": 12.0})
+    both = one.with_values({f"{FLAP}.right.offset": 0.2})
+    assert f"{FLAP}.offset" not in unused_values(one)
+    assert {f"{FLAP}.offset", f"{FLAP}.offset_deg"} <= unused_values(both).keys()
+    assert f"{FLAP}.stiffness" not in unused_values(both)
+
+
+def test_a_spring_on_a_side_of_a_prescribed_joint_is_refused(ibis):
+    with pytest.raises(birdmb.TopologyError) as caught:
+        ibis.with_values({f"{FLAP}.left.stiffness": 12.0, f"{FLAP}.mode": "prescribed"})
+    assert str(caught.value).endswith(
+        "shoulder.flap.left.stiffness: a prescribed joint follows its driver whatever its spring; "
+        'leave it out, or give the joint mode = "compliant"'
+    )
