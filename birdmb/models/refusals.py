@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-from birdmb.errors import TopologyError
-from birdmb.models.motion import PLANAR, Motion
+import numpy as np
+import numpy.typing as npt
+
+from birdmb._typing import FloatArray
+from birdmb.errors import ArgumentError, TopologyError
+from birdmb.models.motion import HELD, PLANAR, SPACE_STATES, Motion
 from birdmb.topology import Bird
 from birdmb.topology.inertia import impossible_moments
 
@@ -28,3 +32,28 @@ def require_inertia(bird: Bird) -> None:
         )
     if why := impossible_moments(bird.body.inertia_tensor):
         raise TopologyError(f"{bird.name}: of the body's inertia, {why}.")
+
+
+def held_state(motion: Motion, body_state: npt.ArrayLike | None) -> FloatArray | None:
+    """State in space (8,) in which a body is held; `None` where it moves.
+
+    Raises:
+        ArgumentError: a held body has no state, or one that turns; or one that flies was given one.
+    """
+    if motion is not HELD:
+        if body_state is not None:
+            raise ArgumentError(
+                'body_state is that of a body that is held (motion="held"); a bird that flies has '
+                "it among its states."
+            )
+        return None
+    given = np.array([] if body_state is None else body_state, dtype=float)
+    if given.shape == (len(PLANAR.states),):
+        given = PLANAR.in_space(given[None])[0]
+    if given.shape != (len(SPACE_STATES),) or given[3:6].any():
+        raise ArgumentError(
+            'motion="held" needs body_state: u, w, q and theta of the body, or '
+            f"{', '.join(SPACE_STATES)}, with no angular velocity: a held body cannot turn."
+        )
+    given.flags.writeable = False
+    return given

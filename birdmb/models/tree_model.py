@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from birdmb._typing import BoolArray, FloatArray, IntArray
-from birdmb.errors import ArgumentError, StateError
+from birdmb.errors import StateError
 from birdmb.models.compiled_calls import COMPILED, calls_compiled_code
 from birdmb.models.determinacy import refuse_undetermined
 from birdmb.models.exudyn_tree import ExudynBird
@@ -25,7 +25,6 @@ from birdmb.models.motion import (
     FREE,
     HELD,
     PLANAR,
-    SPACE_STATES,
     Mirror,
     MotionName,
     gravity_along_body,
@@ -33,7 +32,7 @@ from birdmb.models.motion import (
 )
 from birdmb.models.partition import partitioned
 from birdmb.models.rates_kernel import Motion
-from birdmb.models.refusals import refuse_asymmetric, require_inertia
+from birdmb.models.refusals import held_state, refuse_asymmetric, require_inertia
 from birdmb.models.rigid import RigidModel
 from birdmb.models.springs import Springs, has_two_sides, spring_torques_along, springs_of
 from birdmb.models.tree_coordinates import (
@@ -69,7 +68,7 @@ class TreeModel(BirdModel):
         super().__init__(bird, steps_per_beat=steps_per_beat, gust=gust)
         self.motion = motion_named(motion, (PLANAR, FREE, HELD))
         refuse_asymmetric(bird, self.motion)
-        self._held = self._state_held(body_state)
+        self._held = held_state(self.motion, body_state)
         self._coordinates_of_body = IN_PLANE if self.is_mirrored else IN_SPACE
         if self.motion is FREE:
             require_inertia(bird)
@@ -111,26 +110,6 @@ class TreeModel(BirdModel):
             self.tree.driver_accelerations,
         )
         self._integration: Integration | None = None
-
-    def _state_held(self, body_state: npt.ArrayLike | None) -> FloatArray | None:
-        """State in space (8,) of a held body; `None` where it moves."""
-        if self.motion is not HELD:
-            if body_state is not None:
-                raise ArgumentError(
-                    'body_state is that of a body that is held (motion="held"); a bird that flies '
-                    "has it among its states."
-                )
-            return None
-        given = np.array([] if body_state is None else body_state, dtype=float)
-        if given.shape == (len(PLANAR.states),):
-            given = PLANAR.in_space(given[None])[0]
-        if given.shape != (len(SPACE_STATES),) or given[3:6].any():
-            raise ArgumentError(
-                'motion="held" needs body_state: u, w, q and theta of the body, or '
-                f"{', '.join(SPACE_STATES)}, with no angular velocity: a held body cannot turn."
-            )
-        given.flags.writeable = False
-        return given
 
     @property
     def is_mirrored(self) -> bool:
