@@ -6,6 +6,7 @@ stable, for the tail as it is here and for the ways in which the published progr
 """
 
 from collections.abc import Mapping
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -56,7 +57,7 @@ class ProgramTail(birdmb.RigidModel):
                 found[1, k] -= down
         return found
 
-    def _rates(self, table: Any, k: int, x: np.ndarray, influence: np.ndarray) -> np.ndarray:
+    def _rates(self, table: Any, k: int, x: np.ndarray, *, influence: np.ndarray) -> np.ndarray:
         u, w, q, theta = x
         frame, body = self._constants
         twist, no_derivatives = np.array([u, 0.0, w, 0.0, q, 0.0]), np.empty(0, int)
@@ -80,6 +81,21 @@ class ProgramTail(birdmb.RigidModel):
             ]
         )
 
+    def _along(
+        self, table: Any, phase: Any, _times: Any, states: Any, *, slopes_wanted: bool
+    ) -> tuple[np.ndarray, np.ndarray]:
+        wing = table.right
+        influences = {k: self._influence(wing.elements.node[k]) for k in set(phase.tolist())}
+        steps = np.diag(1e-5 * self.state_scale)
+        rates, slopes = [], []
+        for k, x in zip(phase.tolist(), states, strict=True):
+            at = partial(self._rates, wing, k, influence=influences[k])
+            rates.append(at(x))
+            if slopes_wanted:
+                columns = [(at(x + d) - at(x - d)) / (2 * d.sum()) for d in steps]
+                slopes.append(np.column_stack(columns))
+        return np.array(rates), np.array(slopes)
+
     def _integrate(self, x0: Any, t0: float, t1: float) -> tuple[Any, Any, Any]:
         steps = self._steps(t0, t1)
         table = self._table(t0 % self.bird.period, t1 - t0, steps).right
@@ -89,14 +105,14 @@ class ProgramTail(birdmb.RigidModel):
         def flown(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             states, rates = [x], []
             for i in range(steps):
-                k1 = self._rates(table, 2 * i, x, influences[2 * i])
-                k2 = self._rates(table, 2 * i + 1, x + h / 2 * k1, influences[2 * i + 1])
-                k3 = self._rates(table, 2 * i + 1, x + h / 2 * k2, influences[2 * i + 1])
-                k4 = self._rates(table, 2 * i + 2, x + h * k3, influences[2 * i + 2])
+                k1 = self._rates(table, 2 * i, x, influence=influences[2 * i])
+                k2 = self._rates(table, 2 * i + 1, x + h / 2 * k1, influence=influences[2 * i + 1])
+                k3 = self._rates(table, 2 * i + 1, x + h / 2 * k2, influence=influences[2 * i + 1])
+                k4 = self._rates(table, 2 * i + 2, x + h * k3, influence=influences[2 * i + 2])
                 x = x + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
                 states.append(x)
                 rates.append(k1)
-            rates.append(self._rates(table, 2 * steps, x, influences[2 * steps]))
+            rates.append(self._rates(table, 2 * steps, x, influence=influences[2 * steps]))
             return np.array(states), np.array(rates)
 
         states, rates = flown(start)
