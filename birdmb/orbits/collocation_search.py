@@ -165,15 +165,20 @@ def search_on_mesh(
     equations = PiecewiseEquations(rhs, start_time, period, autonomous, mesh)
     inside = equations.mesh[:-1, None] + equations.widths[:, None] * np.append(0.0, GAUSS)
     values = along_path(path / scale, inside.ravel()).reshape(*inside.shape, -1)
+    u = equations.pack(values, period)
+    gap = equations.derivative_gap(u)
+    if gap > 0:
+        equations = replace(equations, rhs=replace(rhs, by_differences=True))
     reason = str(failed).partition(" Take method=")[0]
     return search_piecewise(
         equations,
-        equations.pack(values, period),
+        u,
         damping=damping,
         tolerance=tolerance,
         accuracy=accuracy,
         max_iterations=max_iterations,
         reason=f"a mesh was taken: {reason}",
+        derivative_gap=gap,
         callback=callback,
     )
 

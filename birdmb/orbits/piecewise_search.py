@@ -10,7 +10,7 @@ from scipy.sparse.linalg import splu
 
 from birdmb._typing import FloatArray
 from birdmb.orbits.cycle import LimitCycle, cycle_type
-from birdmb.orbits.errors import NotSmoothError
+from birdmb.orbits.errors import NotSmoothError, SingularJacobianError
 from birdmb.orbits.iteration import Iteration
 from birdmb.orbits.linearisation import trivial_mode
 from birdmb.orbits.multipliers import Spectrum, paired_distances, product
@@ -26,6 +26,7 @@ from birdmb.orbits.piecewise import (
     uniform,
 )
 from birdmb.orbits.result import FloquetResult
+from birdmb.orbits.shooting_search import SMALLEST_AMPLITUDE, at_equilibrium
 from birdmb.threads import one_thread
 
 # The period's parts that every mesh has for its first one; results are given at their borders.
@@ -63,12 +64,13 @@ def search_piecewise(
     accuracy: float,
     max_iterations: int,
     reason: str,
+    derivative_gap: float = 0.0,
     callback: Callable[[Iteration], None] | None = None,
 ) -> LimitCycle:
-    """Solve on finer and finer meshes until the error of the states is below `accuracy`.
+    """Solve on one mesh after another until the error of the states is below `accuracy`.
 
-    Each mesh is compared with the one that has every interval halved: a Newton step there tells the
-    error, and the mismatch of slopes there which intervals leave it. These are cut.
+    Each is compared with the one that has every interval halved: a Newton step there tells the
+    error, and the mismatch of slopes there which intervals leave it. The next mesh has more there.
 
     Args:
         equations: on the mesh to begin with.
@@ -78,12 +80,16 @@ def search_piecewise(
         accuracy: largest error of the states, in units of their scale.
         max_iterations: accepted steps on each mesh.
         reason: why the orbit is not taken as smooth.
+        derivative_gap: as for `linearise_collocated`.
         callback: called with each iteration.
 
     Raises:
         StateError: the right-hand side fails at the guess.
         ConvergenceError: no solution on some mesh.
-        NotSmoothError: the accuracy is not reached with the most unknowns allowed.
+        NotSmoothError: the accuracy is not reached with the most unknowns allowed, or the states
+            make the right-hand side jump.
+        SingularJacobianError: the equations have no unique solution on a mesh.
+        EquilibriumError: the search ended on an equilibrium.
     """
     history: list[Iteration] = []
 
@@ -103,14 +109,15 @@ def search_piecewise(
             max_iterations=max_iterations,
             callback=record,
         )
-        solved = _compared(equations, u, residual)
+        solved = _compared(equations, u, residual, history)
         if solved.state_error <= accuracy:
+            _refuse_equilibrium(solved, history)
             _refuse_jumps_by_state(solved, history)
-            return _cycle(solved, tuple(history), reason)
+            return _cycle(solved, tuple(history), reason, derivative_gap)
         mesh = _refined(solved, accuracy)
         if mesh is None:
             break
-        # On the mesh with all halved the solution is known better; it holds the one that is cut.
+        # With every interval halved the solution is known better.
         equations, u = solved.finer.on_mesh(mesh, solved.finer_u)
     x, _ = equations.start_and_period(u)
     raise NotSmoothError(
@@ -139,11 +146,31 @@ def _refuse_jumps_by_state(solved: _Solved, history: list[Iteration]) -> None:
         )
 
 
-def _compared(equations: PiecewiseEquations, u: FloatArray, residual: FloatArray) -> _Solved:
+def _refuse_equilibrium(solved: _Solved, history: list[Iteration]) -> None:
+    equations = solved.equations
+    values, period = equations.unpack(solved.u)
+    if equations.autonomous and np.abs(values - values[0, 0]).max() <= SMALLEST_AMPLITUDE:
+        x = values[0, 0] * equations.rhs.scale
+        raise at_equilibrium(x, period, equations.closure(solved.residual), tuple(history))
+
+
+def _compared(
+    equations: PiecewiseEquations, u: FloatArray, residual: FloatArray, history: list[Iteration]
+) -> _Solved:
     """The solution with its error, by a Newton step on the mesh with every interval halved."""
     halves = split(equations.mesh, np.full(equations.intervals, 2))
     finer, start = equations.on_mesh(halves, u)
-    linear = splu(finer.jacobian(start))
+    try:
+        linear = splu(finer.jacobian(start))
+    except RuntimeError as error:  # SuperLU's word for an exact zero pivot
+        x, _ = equations.start_and_period(u)
+        raise SingularJacobianError(
+            f"The collocation equations have no unique solution on {finer.intervals} intervals: "
+            "the orbit may be at a fold or one of a family.",
+            x,
+            equations.closure(residual),
+            history,
+        ) from error
     step = -linear.solve(finer.residual(start))
     unseen = finer.unseen(start + step)
     hidden = linear.solve(finer.as_gaps(unseen))
@@ -176,7 +203,9 @@ def _refined(solved: _Solved, accuracy: float) -> FloatArray | None:
     return mesh if unknowns <= _MOST_UNKNOWNS else None
 
 
-def _cycle(solved: _Solved, history: tuple[Iteration, ...], reason: str) -> LimitCycle:
+def _cycle(
+    solved: _Solved, history: tuple[Iteration, ...], reason: str, derivative_gap: float
+) -> LimitCycle:
     """The limit cycle, its multipliers with errors that the finer mesh shows."""
     equations = solved.equations
     values, period = equations.unpack(solved.u)
@@ -213,7 +242,7 @@ def _cycle(solved: _Solved, history: tuple[Iteration, ...], reason: str) -> Limi
         if equations.autonomous
         else None,
         jacobian_method="variational" if equations.rhs.has_derivative else "finite-differences",
-        jacobian_gap=0.0,
+        jacobian_gap=derivative_gap,
     )
     return cycle_type(model).of(
         orbit,

@@ -164,7 +164,7 @@ def find_limit_cycle(
         "max_iterations": max_iterations,
         "callback": callback,
     }
-    rough: OrbitError | StateError | None = None
+    failed: OrbitError | StateError | None = None
     if method != "shooting" and not reason:
         try:
             return search_by_collocation(
@@ -181,7 +181,10 @@ def find_limit_cycle(
         except (OrbitError, StateError) as error:
             if nodes is not None:
                 raise
-            rough, reason = error, f"collocation failed: {str(error).partition(' Take method=')[0]}"
+            failed, reason = (
+                error,
+                f"collocation failed: {str(error).partition(' Take method=')[0]}",
+            )
 
     def on_mesh(error: OrbitError | StateError) -> LimitCycle:
         """The orbit on a mesh; raises `error` where there is none either."""
@@ -192,11 +195,11 @@ def find_limit_cycle(
         except (OrbitError, StateError) as failure:
             raise error from failure
 
-    if rough is not None and method == "collocation":
-        return on_mesh(rough)
-    start, period = _beginning(guess, rough), period_guess
-    if isinstance(rough, NotSmoothError) and rough.residual < NEAR and period_guess:
-        period = rough.history[-1].period
+    if failed is not None and method == "collocation":
+        return on_mesh(failed)
+    start, period = _beginning(guess, failed), period_guess
+    if isinstance(failed, NotSmoothError) and failed.residual < NEAR and period_guess:
+        period = failed.history[-1].period
     count = 1 if segments is None else segments
     try:
         return search_by_shooting(
@@ -211,7 +214,7 @@ def find_limit_cycle(
             **common,
         )
     except (OrbitError, StateError) as error:
-        if not isinstance(rough, NotSmoothError):
+        if not isinstance(failed, NotSmoothError):
             raise
         return on_mesh(error)
 

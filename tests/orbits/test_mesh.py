@@ -138,6 +138,25 @@ def test_a_jump_that_a_state_causes_is_refused():
     assert at == pytest.approx(2 * np.pi, abs=1e-9) or at == pytest.approx(4 * np.pi, abs=1e-9)
 
 
+def test_a_wrong_derivative_is_not_taken_on_a_mesh_either():
+    wrong = OdeModel(
+        struck().rhs,
+        ("x", "v"),
+        period=1.0,
+        jacobian=lambda _t, _x: MATRIX + np.diag([3.0], -1),
+    )
+    cycle = find_limit_cycle(wrong, [0.0, 0.0], method="collocation")
+    right = find_limit_cycle(struck(), [0.0, 0.0], method="collocation")
+    assert cycle.jacobian_gap > 0.1  # in units of the state scale
+    np.testing.assert_allclose(cycle.multipliers, right.multipliers, atol=1e-6)
+
+
+def test_an_equilibrium_is_no_orbit_on_a_mesh_either():
+    model = OdeModel(lambda _t, x: [x[1] - x[0], -x[0] - x[1]], ("x", "v"))
+    with pytest.raises(OrbitError):
+        find_limit_cycle(model, [0.1, 0.0], period_guess=6.0, method="collocation")
+
+
 def test_auto_shoots_first_beside_a_rough_orbit():
     cycle = find_limit_cycle(struck(), [0.0, 0.0])
     assert cycle.method == "shooting"
