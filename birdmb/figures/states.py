@@ -58,7 +58,8 @@ def _label(name: str) -> str:
         return symbol(name).replace(".", "\n")
     joint, side = split_side(name.removesuffix(_RATE))
     place, _, motion = joint.partition(".")
-    return in_figure(" ".join([place, side]).strip()) + "\n" + in_figure(f"{motion} rate")
+    lines = [place, f"{motion} rate", side]
+    return "\n".join(in_figure(line) for line in lines if line)
 
 
 def _driver(cycle: FlightCycle, state: str) -> FloatArray | None:

@@ -28,7 +28,7 @@ BIFURCATION_MARKERS = {
 _SHADE = "0.92"
 
 # In place of "theta", say, as the text in a picture.
-_SYMBOLS = {"theta": "θ"}
+_SYMBOLS = {"theta": "θ", "phi": "φ"}
 
 
 def title_of(cycle: FlightCycle) -> str:

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 _PHASES = (0.0, 0.25, 0.5, 0.75)
 _COLOURS = "RdBu_r"
 _MIRROR = np.array([1.0, -1.0, 1.0])
+_SIDES = (np.ones(3), _MIRROR)
 # Slower than this part of the fastest stroke, the wings are turning round.
 _TURNING = 0.35
 # Between drawings, m.
@@ -71,11 +72,18 @@ TOP = View.along("from above", (0.0, 0.0, -1.0), (1.0, 0.0, 0.0))
 
 @dataclass(frozen=True)
 class Pose:
-    """The wing at one phase: its outline, the circulation (N,) m2/s, and what it is doing."""
+    """Both wings at one phase, the left one mirrored, and what they are doing.
+
+    Attributes:
+        phase: part of the beat.
+        outlines: of the right and of the left wing.
+        circulations: (2, N) m2/s.
+        motion: in a word.
+    """
 
     phase: float
-    outline: WingOutline
-    circulation: FloatArray
+    outlines: tuple[WingOutline, WingOutline]
+    circulations: FloatArray
     motion: str
 
 
@@ -91,7 +99,7 @@ def plot_wing_phases(cycle: FlightCycle) -> Figure:
 def draw_wing_phases(figure: Figure | SubFigure, cycle: FlightCycle, views: Sequence[View]) -> None:
     """Draw the wings at four phases, a row for each view, all on one scale of length and colour."""
     poses = _poses(cycle)
-    norm = CenteredNorm(0.0, max(float(np.abs(p.circulation).max()) for p in poses))
+    norm = CenteredNorm(0.0, max(float(np.abs(p.circulations).max()) for p in poses))
     # One set of axes for all: nothing else keeps all drawings on one scale.
     axes = figure.subplots()
     axes.set(aspect="equal")
@@ -115,7 +123,7 @@ def draw_wing_phases(figure: Figure | SubFigure, cycle: FlightCycle, views: Sequ
     colours = ScalarMappable(norm, _COLOURS)
     bar = figure.colorbar(colours, ax=axes, label="circulation Γ (m²/s)", shrink=0.7, pad=0.01)
     # Zero is white on any scale; what does not occur need not be shown.
-    lowest, highest = (float(f([f(p.circulation) for p in poses])) for f in (np.min, np.max))
+    lowest, highest = (float(f([f(p.circulations) for p in poses])) for f in (np.min, np.max))
     bar.ax.set_ylim(min(lowest, 0.0), max(highest, 0.0))
 
 
@@ -125,9 +133,11 @@ def _poses(cycle: FlightCycle) -> list[Pose]:
     times = cycle.start_time + np.array(_PHASES) * cycle.period
     poses = []
     for phase, t, x in zip(_PHASES, times, cycle.trajectory(times).states, strict=True):
-        angles, _ = model.joint_motion(t, x)
-        outline = wing_outline(model.wing, angles, discretisation)
-        poses.append(Pose(phase, outline, model.loads(t, x).right.circulation, _motion(cycle, t)))
+        angles, _ = model.motion_of_both(np.array([t]), x[None])
+        right, left = (wing_outline(model.wing, at, discretisation) for at in angles[0])
+        loads = model.loads(t, x)
+        circulations = np.array([loads.right.circulation, loads.left.circulation])
+        poses.append(Pose(phase, (right, left), circulations, _motion(cycle, t)))
     return poses
 
 
@@ -146,8 +156,15 @@ def _fraction(phase: float) -> str:
 
 def _box(view: View, poses: Sequence[Pose]) -> tuple[FloatArray, FloatArray]:
     """Lower left and upper right corner (2,) on paper of both wings in all poses."""
-    points = np.concatenate([np.vstack([p.outline.leading, p.outline.trailing]) for p in poses])
-    seen = view(np.concatenate([points, points * _MIRROR]))
+    points = np.concatenate(
+        [
+            edge * side
+            for pose in poses
+            for outline, side in zip(pose.outlines, _SIDES, strict=True)
+            for edge in (outline.leading, outline.trailing)
+        ]
+    )
+    seen = view(points)
     return seen.min(axis=0), seen.max(axis=0)
 
 
@@ -157,9 +174,9 @@ def _draw(axes: Axes, pose: Pose, view: View, norm: CenteredNorm, origin: FloatA
     def seen(points: FloatArray) -> FloatArray:
         return origin + view(points)
 
-    outline = pose.outline
-    panels = np.concatenate([outline.panels, outline.panels * _MIRROR])
-    circulation = np.concatenate([pose.circulation, pose.circulation])
+    wings = list(zip(pose.outlines, _SIDES, strict=True))
+    panels = np.concatenate([outline.panels * side for outline, side in wings])
+    circulation = pose.circulations.ravel()
     order = np.argsort((panels @ view.towards).mean(axis=1))
     axes.add_collection(
         PolyCollection(
@@ -171,7 +188,7 @@ def _draw(axes: Axes, pose: Pose, view: View, norm: CenteredNorm, origin: FloatA
             linewidths=0.4,
         )
     )
-    for side in (np.ones(3), _MIRROR):
+    for outline, side in wings:
         for feather in outline.feathers:
             axes.plot(*seen(feather * side).T, **_FEATHER)
         for edge in (outline.leading, outline.trailing):

@@ -15,6 +15,7 @@ from birdmb.errors import ArgumentError
 from birdmb.models.beat import Beat
 from birdmb.models.energy import Work, work_by_sign
 from birdmb.models.flight_modes import FlightMode, flight_modes
+from birdmb.models.loads_kernel import StackedWing
 from birdmb.models.motion import HELD, SPACE_STATES, heading_rate, heading_velocity
 from birdmb.models.stepped_cycle import SteppedCycle
 from birdmb.models.wing_model import STEPS_PER_BEAT
@@ -277,24 +278,10 @@ class FlightCycle(SteppedCycle):
         """The orbit as `LimitCycle.to_xarray` gives it, with loads and power over the beat."""
         beat = self.beat
         axes, joints = ["x", "y", "z"], list(self.model.bird.angle_names)
-        vectors = {
-            "position": ("m", "control points of the right wing from G"),
-            "element_force": ("N", "force on each element of the right wing"),
-        }
-        numbers = {
-            "circulation": ("m2/s", "bound circulation"),
-            "angle_of_attack": ("rad", "geometric angle of attack"),
-            "speed": ("m/s", "wind in the section's plane"),
-            "chord": ("m", "chord"),
-            "width": ("m", "width of the element"),
-        }
-        of_wing = {
-            name: (("beat_time", "element", "axis"), self._stacked(name), _attrs(*about))
-            for name, about in vectors.items()
-        } | {
-            name: (("beat_time", "element"), self._stacked(name), _attrs(*about))
-            for name, about in numbers.items()
-        }
+        stack = beat.loads_along.stack
+        of_wings = _of_wing(stack.right, "", "")
+        if not self.model.is_mirrored:
+            of_wings |= _of_wing(stack.left, "left_", ", of the left wing, mirrored")
         flight = xr.Dataset(
             {
                 "force": (("beat_time", "axis"), beat.force, _attrs("N", "air on the bird")),
@@ -316,7 +303,7 @@ class FlightCycle(SteppedCycle):
                     beat.joint_power,
                     _attrs("W", "joint torque times joint rate, both wings"),
                 ),
-                **of_wing,
+                **of_wings,
             },
             coords={"beat_time": ("beat_time", beat.times, {"units": "s"}), "axis": axes}
             | {"joint": joints, "load": list(DISSIPATORS)},
@@ -331,10 +318,6 @@ class FlightCycle(SteppedCycle):
         )
         return xr.merge([super().to_xarray(), flight], combine_attrs="no_conflicts")
 
-    def _stacked(self, name: str) -> FloatArray:
-        wing = self.beat.loads_along.stack.right
-        return np.asarray(wing.force if name == "element_force" else getattr(wing, name))
-
     def plot(self) -> Figure:
         """Draw states, loads and power over a beat, the multipliers and the wing at four phases."""
         from birdmb.figures import plot_overview  # noqa: PLC0415 - it draws
@@ -344,3 +327,27 @@ class FlightCycle(SteppedCycle):
 
 def _attrs(units: str, about: str) -> dict[str, str]:
     return {"units": units, "long_name": about}
+
+
+_OF_ELEMENTS = {
+    "position": ("m", "control points from G"),
+    "force": ("N", "force on each element"),
+    "circulation": ("m2/s", "bound circulation"),
+    "angle_of_attack": ("rad", "geometric angle of attack"),
+    "speed": ("m/s", "wind in the section's plane"),
+    "chord": ("m", "chord"),
+    "width": ("m", "width of the element"),
+}
+
+
+def _of_wing(
+    wing: StackedWing, prefix: str, which: str
+) -> dict[str, tuple[tuple[str, ...], FloatArray, dict[str, str]]]:
+    """Variables of a dataset, by name, of one wing's elements over the beat."""
+    found = {}
+    for name, (units, about) in _OF_ELEMENTS.items():
+        values = getattr(wing, name)
+        dims = ("beat_time", "element", "axis")[: values.ndim]
+        key = prefix + ("element_force" if name == "force" else name)
+        found[key] = (dims, values, _attrs(units, about + which))
+    return found

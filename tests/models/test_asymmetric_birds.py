@@ -100,6 +100,10 @@ def test_a_bird_with_one_larger_stroke_turns(coarse):
     right, left = cycles
     np.testing.assert_allclose(left.x0, MIRROR * right.x0, atol=1e-6)
     assert right.energy_imbalance < 1e-5
+    stored = right.to_xarray()
+    assert stored["left_circulation"].shape == stored["circulation"].shape
+    assert np.abs(stored["left_circulation"] - stored["circulation"]).max() > 1e-3
+    assert "left_circulation" not in birdmb.find_limit_cycle(birdmb.RigidModel(coarse)).to_xarray()
     assert abs(right.turn_rate) > 1e-3
     assert {mode.plane for mode in right.flight_modes} > {"longitudinal"}
     limit = 0.99 * birdmb.assess_validity(right).largest_angle_of_attack
