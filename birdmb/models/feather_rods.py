@@ -10,7 +10,8 @@ from birdmb._typing import FloatArray
 from birdmb.errors import TopologyError
 from birdmb.topology import Bird, Bone
 from birdmb.wing.arrays import wing_arrays
-from birdmb.wing.edges import feather_ends, skeleton
+from birdmb.wing.chain import joint_chain
+from birdmb.wing.edges import feather_ends
 
 # Sine of the angle to the hinge's axis below which a rod has no inertia about it.
 _ALONG_THE_AXIS = 1e-6
@@ -43,7 +44,7 @@ def feather_rods(bird: Bird) -> list[FeatherRod]:
     wing = wing_arrays(bird)
     angles = wing.offset.astype(complex)
     angles[wing.segment.size :] = 0.0
-    bones = skeleton(wing, angles)
+    bones = joint_chain(wing, angles)
     roots, tips = feather_ends(wing, bones, angles)
     rods = []
     for i, feather in enumerate(bird.feathers):

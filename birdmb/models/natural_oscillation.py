@@ -11,7 +11,6 @@ from birdmb.models.feather_rods import feather_rods
 from birdmb.topology import BONES, SIDES, Bird, Joint
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.chain import joint_chain
-from birdmb.wing.edges import skeleton
 
 # Of the inertia that the whole wing's mass would have a metre away: round-off of the sum.
 _ROUND_OFF = 1e-14
@@ -44,14 +43,13 @@ def joint_oscillation(bird: Bird, joint: Joint) -> NaturalOscillation:
     angles = np.array([j.offset for j in bird.joints])
     wing = wing_arrays(bird)
     chain = joint_chain(wing, angles)
-    bones = skeleton(wing, angles.astype(complex))
     number = bird.joint_names.index(joint.name)
     axis = chain.axis[number]
     pivot = chain.origin[BONES.index(joint.segment)]
     inertia, largest = 0.0, 0.0
     for i in range(BONES.index(joint.segment), len(BONES)):
         segment = getattr(bird.segments, BONES[i])
-        R = bones.rotation[i].real
+        R = chain.rotation[i]
         lever = np.cross(axis, chain.origin[i] + R @ np.array(segment.centre_of_mass) - pivot)
         local = R.T @ axis
         inertia += segment.mass * float(lever @ lever)

@@ -11,7 +11,7 @@ from birdmb._typing import FloatArray
 from birdmb.aerodynamics.elements import Elements, place_elements
 from birdmb.aerodynamics.joints import velocity_per_joint_rate
 from birdmb.wing.arrays import JointArrays
-from birdmb.wing.chain import Chain, frame_after, joint_chain
+from birdmb.wing.chain import Chain, joint_chain
 from birdmb.wing.shape import WingShape, turned
 
 
@@ -37,7 +37,7 @@ def place_wing(
     `angles` and `rates` (A,) rad, rad/s are those of joints and hinges.
     """
     chain = joint_chain(joints, angles)
-    axes = frame_after(joints, angles, rigid_joint_count)
+    axes = chain.frame[rigid_joint_count]
     placed = turned(shape, axes, spin_of(chain, rigid_joint_count, rates))
     elements = place_elements(placed, joints.root)
     per_rate = np.empty((joints.angle_count, elements.chord.size, 3))

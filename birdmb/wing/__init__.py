@@ -1,1 +1,1 @@
-"""The wing: joint chain, skeleton, feathers, edges and the lifting line (compiled kernels)."""
+"""The wing: joint chain, feathers, edges and the lifting line (compiled kernels)."""

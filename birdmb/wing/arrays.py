@@ -43,12 +43,20 @@ class JointArrays(NamedTuple):
     bone_length: FloatArray  # (3,)
     axis: FloatArray  # (J, 3)
     segment: IntArray  # (J,)
+    twist: BoolArray  # (J,)
     angle_count: int  # A
 
 
 def joint_arrays(wing: WingArrays) -> JointArrays:
     """What of a wing places its joints."""
-    return JointArrays(wing.root, wing.bone_length, wing.axis, wing.segment, int(wing.offset.size))
+    return JointArrays(
+        wing.root,
+        wing.bone_length,
+        wing.axis,
+        wing.segment,
+        wing.twist,
+        int(wing.offset.size),
+    )
 
 
 def wing_arrays(bird: Bird) -> WingArrays:

@@ -1,4 +1,9 @@
-"""Joint axes and bone origins of the right wing, for torques about the joints."""
+"""The joint chain of the right wing: where its joints and bones are.
+
+Body axes, origin at the shoulder joint. The kernel takes complex angles as well: with q + i h q' (h
+tiny) the imaginary part of everything it returns is h times its exact time derivative (complex
+step; Squire and Trapp, SIAM Rev. 40, 1998).
+"""
 
 from __future__ import annotations
 
@@ -7,43 +12,49 @@ from typing import NamedTuple
 import numpy as np
 
 from birdmb._kernels import kernel
-from birdmb._typing import FloatArray
+from birdmb._typing import Array
 from birdmb.wing.arrays import JointArrays, WingArrays
 from birdmb.wing.rotations import rotate_about
 
 
 class Chain(NamedTuple):
-    """The chain in body axes, origin at the shoulder joint."""
+    """Joints and bones of the right wing; of bones the first axis is humerus, forearm, hand."""
 
-    axis: FloatArray  # (J, 3) unit vectors
-    origin: FloatArray  # (3, 3) m, where humerus, forearm and hand start
+    axis: Array  # (J, 3) unit vectors of the joints
+    frame: Array  # (J + 1, 3, 3) behind so many joints, to body axes
+    origin: Array  # (3, 3) m, where each bone starts
+    tip: Array  # (3,) m, end of the hand
+    rotation: Array  # (3, 3, 3) each bone's frame to body axes
+    root_rotation: Array  # (3, 3, 3) the same without the bone's own twist joints
 
 
 @kernel
-def joint_chain(wing: WingArrays | JointArrays, angles: FloatArray) -> Chain:
-    """Axes of the joints and origins of the bones at `angles` (J,) rad; more are not read."""
+def joint_chain(wing: WingArrays | JointArrays, angles: Array) -> Chain:
+    """Place joints and bones at `angles` (J,) rad, real or complex; more are not read."""
     n = wing.segment.size
-    axis = np.empty((n, 3))
-    origin = np.zeros((3, 3))
-    R = np.eye(3)
+    axis = np.zeros((n, 3), angles.dtype)
+    frame = np.zeros((n + 1, 3, 3), angles.dtype)
+    origin = np.zeros((4, 3), angles.dtype)
+    rotation = np.zeros((3, 3, 3), angles.dtype)
+    root_rotation = np.zeros((3, 3, 3), angles.dtype)
+    R = np.eye(3).astype(angles.dtype)
+    frame[0] = R
     joint = 0
     for bone in range(3):
+        untwisted = R
         while joint < n and wing.segment[joint] == bone:
-            axis[joint] = R @ wing.axis[joint]
+            for i in range(3):
+                for m in range(3):
+                    axis[joint, i] += R[i, m] * wing.axis[joint, m]
             R = rotate_about(R, wing.axis[joint], angles[joint])
+            if not wing.twist[joint]:
+                untwisted = rotate_about(untwisted, wing.axis[joint], angles[joint])
             joint += 1
-        if bone < 2:
-            origin[bone + 1] = origin[bone] + wing.bone_length[bone] * R[:, 1]
-    return Chain(axis, origin)
-
-
-@kernel
-def frame_after(wing: WingArrays | JointArrays, angles: FloatArray, joints: int) -> FloatArray:
-    """Rotation (3, 3) of the frame behind the first `joints` joints, to body axes."""
-    R = np.eye(3)
-    for j in range(joints):
-        R = rotate_about(R, wing.axis[j], angles[j])
-    return R
+            frame[joint] = R
+        rotation[bone] = R
+        root_rotation[bone] = untwisted
+        origin[bone + 1] = origin[bone] + wing.bone_length[bone] * R[:, 1]
+    return Chain(axis, frame, origin[:3], origin[3], rotation, root_rotation)
 
 
 def joints_turning_the_whole(wing: WingArrays) -> int:

@@ -1,20 +1,18 @@
-"""Skeleton, feathers and the two edges between which the wing is spanned.
+"""Feathers and the two edges between which the wing is spanned.
 
 Frame: the right wing, body axes (x forward, y right, z down), origin at the shoulder joint. The
-kernels take complex angles as well: with q + i h q' (h tiny) the imaginary part of everything they
-return is h times its exact time derivative (complex step; Squire and Trapp, SIAM Rev. 40, 1998).
+kernels take complex angles as well, for exact time derivatives (`birdmb.wing.chain`).
 Angles (A,) are those of the joints, then those of the feathers' hinges.
 """
 
 from __future__ import annotations
-
-from typing import NamedTuple
 
 import numpy as np
 
 from birdmb._kernels import kernel
 from birdmb._typing import Array
 from birdmb.wing.arrays import WingArrays
+from birdmb.wing.chain import Chain, joint_chain
 from birdmb.wing.rotations import rotate_about, turned_about
 
 # Small enough for its square to vanish beside 1, large enough to stay clear of denormal numbers.
@@ -22,42 +20,8 @@ COMPLEX_STEP = 1e-30
 HUMERUS, FOREARM, HAND = 0, 1, 2
 
 
-class Skeleton(NamedTuple):
-    """Bones of the right wing; first axis: humerus, forearm, hand.
-
-    `origin` (3, 3) m: where each bone starts; `tip` (3,) m: end of the hand; `rotation` (3, 3, 3):
-    segment frame to body axes; `root_rotation`: the same without the bone's own twist joints.
-    """
-
-    origin: Array
-    tip: Array
-    rotation: Array
-    root_rotation: Array
-
-
 @kernel
-def skeleton(wing: WingArrays, angles: Array) -> Skeleton:
-    """Place the bones for `angles` (A,) rad, real or complex."""
-    origin = np.zeros((4, 3), angles.dtype)
-    rotation = np.zeros((3, 3, 3), angles.dtype)
-    root_rotation = np.zeros((3, 3, 3), angles.dtype)
-    R = np.eye(3).astype(angles.dtype)
-    joint = 0
-    for bone in range(3):
-        untwisted = R
-        while joint < wing.axis.shape[0] and wing.segment[joint] == bone:
-            R = rotate_about(R, wing.axis[joint], angles[joint])
-            if not wing.twist[joint]:
-                untwisted = rotate_about(untwisted, wing.axis[joint], angles[joint])
-            joint += 1
-        rotation[bone] = R
-        root_rotation[bone] = untwisted
-        origin[bone + 1] = origin[bone] + wing.bone_length[bone] * R[:, 1]
-    return Skeleton(origin[:3], origin[3], rotation, root_rotation)
-
-
-@kernel
-def _feather_root_aft(wing: WingArrays, bones: Skeleton, angles: Array, feather: int) -> Array:
+def _feather_root_aft(wing: WingArrays, bones: Chain, angles: Array, feather: int) -> Array:
     """Aft direction of the bones where a feather is rooted: at a joint, the two bones' mean."""
     bone = wing.feather_bone[feather]
     position = wing.feather_position[feather]
@@ -79,7 +43,7 @@ def _feather_root_aft(wing: WingArrays, bones: Skeleton, angles: Array, feather:
 
 
 @kernel
-def trailing_edge(wing: WingArrays, bones: Skeleton, angles: Array) -> Array:
+def trailing_edge(wing: WingArrays, bones: Chain, angles: Array) -> Array:
     """Vertices (F, 3) of the trailing edge: the tips of the feathers, from shoulder to wing tip."""
     n = wing.feather_length.size
     vertices = np.empty((n, 3), angles.dtype)
@@ -107,7 +71,7 @@ def trailing_edge(wing: WingArrays, bones: Skeleton, angles: Array) -> Array:
     return vertices
 
 
-def feather_ends(wing: WingArrays, bones: Skeleton, angles: Array) -> tuple[Array, Array]:
+def feather_ends(wing: WingArrays, bones: Chain, angles: Array) -> tuple[Array, Array]:
     """Roots and tips (F, 3) m of the feathers, from shoulder to wing tip."""
     # A feather of no length ends at its root.
     rootlets = wing._replace(feather_length=0.0 * wing.feather_length)
@@ -115,7 +79,7 @@ def feather_ends(wing: WingArrays, bones: Skeleton, angles: Array) -> tuple[Arra
 
 
 @kernel
-def leading_edge(wing: WingArrays, bones: Skeleton, tip: Array) -> Array:
+def leading_edge(wing: WingArrays, bones: Chain, tip: Array) -> Array:
     """Vertices (5, 3) of the leading edge: shoulder, abreast of the elbow, wrist, hand tip, `tip`.
 
     From the shoulder the edge runs straight to the wrist (the skin in front of the elbow); its own
@@ -149,7 +113,7 @@ def leading_edge(wing: WingArrays, bones: Skeleton, tip: Array) -> Array:
 @kernel
 def wing_edges(wing: WingArrays, angles: Array) -> tuple[Array, Array]:
     """Vertices of the leading (5, 3) and trailing (F, 3) edge, m, at `angles` (A,) rad."""
-    bones = skeleton(wing, angles)
+    bones = joint_chain(wing, angles)
     trailing = trailing_edge(wing, bones, angles)
     leading = leading_edge(wing, bones, trailing[-1])
     if wing.square_tip:

@@ -13,7 +13,8 @@ from birdmb._typing import ComplexArray, FloatArray
 from birdmb.errors import StateError
 from birdmb.topology import Bird, Discretisation
 from birdmb.wing.arrays import WingArrays, wing_arrays
-from birdmb.wing.edges import feather_ends, leading_edge, skeleton, wing_edges
+from birdmb.wing.chain import joint_chain
+from birdmb.wing.edges import feather_ends, leading_edge, wing_edges
 from birdmb.wing.line import orthogonal_line
 from birdmb.wing.one_step import one_step_line
 from birdmb.wing.rounded import point, rounded_polyline
@@ -122,7 +123,7 @@ def _extent_told() -> Iterator[None]:
 def _outline(wing: WingArrays, angles: FloatArray, discretisation: Discretisation) -> WingOutline:
     # Complex as the model's own calls are (for rates, here none): no kernel is compiled twice.
     still = angles.astype(complex)
-    bones = skeleton(wing, still)
+    bones = joint_chain(wing, still)
     roots, tips = feather_ends(wing, bones, still)
     front = leading_edge(wing, bones, tips[-1])
     edges = front.real.copy(), tips.real.copy()

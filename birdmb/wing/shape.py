@@ -14,7 +14,8 @@ import numpy as np
 from birdmb._kernels import kernel
 from birdmb._typing import ComplexArray, FloatArray, IntArray
 from birdmb.wing.arrays import WingArrays
-from birdmb.wing.edges import COMPLEX_STEP, HUMERUS, skeleton
+from birdmb.wing.chain import joint_chain
+from birdmb.wing.edges import COMPLEX_STEP, HUMERUS
 from birdmb.wing.hinges import one_step_wing, orthogonal_wing
 from birdmb.wing.line import PairedEdges
 from birdmb.wing.rounded import smooth_step
@@ -119,7 +120,7 @@ def shape_of_edges(
         )
     per_hinge = per_rate[singly.size - (wing.offset.size - wing.segment.size) :].copy()
     shape = _assemble(pairs, guide, leading, per_hinge, rounding, published is not None)
-    forward = skeleton(wing, moving).rotation[HUMERUS, :, 0].real
+    forward = joint_chain(wing, moving).rotation[HUMERUS, :, 0].real
     # Written so that what is not finite does not pass.
     sound = bool(np.isfinite(shape.line).all() and np.isfinite(shape.velocity).all())
     for e in range(elements):

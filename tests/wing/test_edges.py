@@ -1,4 +1,4 @@
-"""The skeleton and both edges against the reference program, to round-off."""
+"""The bones and both edges against the reference program, to round-off."""
 
 import numpy as np
 import pytest
@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from birdmb.aerodynamics.prescribed import driver_motion
 from birdmb.wing.arrays import wing_arrays
-from birdmb.wing.chain import frame_after, joint_chain
-from birdmb.wing.edges import skeleton, wing_edges
+from birdmb.wing.chain import joint_chain
+from birdmb.wing.edges import wing_edges
 from tests.conftest import REFERENCE
 
 angles_in_reach = st.lists(st.floats(-1.2, 1.2), min_size=6, max_size=6).map(np.array)
@@ -51,7 +51,7 @@ def test_driver_derivatives(wing):
 @settings(max_examples=50)
 @given(angles=angles_in_reach)
 def test_bones_keep_their_lengths_and_frames_stay_orthonormal(wing, angles):
-    bones = skeleton(wing, angles + 0j)
+    bones = joint_chain(wing, angles + 0j)
     ends = np.vstack([bones.origin[1:], bones.tip]).real
     np.testing.assert_allclose(
         np.linalg.norm(ends - bones.origin.real, axis=1), wing.bone_length, rtol=1e-13
@@ -68,11 +68,11 @@ def test_joint_axes_are_what_the_hand_turns_about(wing, angles):
     for j in range(6):
         q = angles + 0j
         q[j] += 1e-30j
-        bones = skeleton(wing, q)
+        bones = joint_chain(wing, q)
         arm = bones.tip.real - chain.origin[wing.segment[j]]
         np.testing.assert_allclose(bones.tip.imag / 1e-30, np.cross(chain.axis[j], arm), atol=1e-14)
     np.testing.assert_allclose(
-        frame_after(wing, angles, 3), skeleton(wing, angles + 0j).rotation[0].real, atol=1e-15
+        chain.frame[3], joint_chain(wing, angles + 0j).rotation[0].real, atol=1e-15
     )
 
 

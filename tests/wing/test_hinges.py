@@ -8,7 +8,8 @@ from birdmb.aerodynamics.elements import place_elements
 from birdmb.aerodynamics.joints import torques
 from birdmb.aerodynamics.prescribed import driver_motion
 from birdmb.wing.arrays import wing_arrays
-from birdmb.wing.edges import feather_ends, skeleton, wing_edges
+from birdmb.wing.chain import joint_chain
+from birdmb.wing.edges import feather_ends, wing_edges
 from birdmb.wing.shape import wing_shape
 from tests.aerodynamics.pairs import element_loads
 
@@ -58,7 +59,7 @@ def test_a_positive_angle_takes_the_tip_down(hinged):
 def test_a_feather_turns_about_its_bones_span_at_its_root(hinged, firm, t):
     """Against scipy's rotations of the firmly rooted feather, vector by vector."""
     angles, _ = posed(hinged, t)
-    bones = skeleton(firm, angles[:6] + 0j)
+    bones = joint_chain(firm, angles[:6] + 0j)
     roots, tips = (ends.real for ends in feather_ends(firm, bones, angles[:6] + 0j))
     found = wing_edges(hinged, angles + 0j)[1].real
     for feather, bone, angle in ((FIFTH, 0, 0.2), (THIRD, 1, -0.1)):

@@ -6,7 +6,7 @@ import pytest
 from birdmb.aerodynamics.prescribed import driver_motion
 from birdmb.topology import PRESETS
 from birdmb.wing.arrays import wing_arrays
-from birdmb.wing.chain import frame_after, joint_chain
+from birdmb.wing.chain import joint_chain
 from birdmb.wing.edges import wing_edges
 from birdmb.wing.line import orthogonal_line
 from birdmb.wing.one_step import one_step_line
@@ -135,7 +135,7 @@ def test_shoulder_joints_turn_the_shape_as_a_whole(wing):
     still_angles[:3] = still_rates[:3] = 0.0
     still = wing_shape(wing, still_angles, still_rates, 16, ROUNDING, False)
     spin = rates[:3] @ joint_chain(wing, angles).axis[:3]
-    whole = turned(still, frame_after(wing, angles, 3), spin)
+    whole = turned(still, joint_chain(wing, angles).frame[3], spin)
     direct = wing_shape(wing, angles, rates, 16, ROUNDING, False)
     for name in ("line", "velocity", "chord_direction", "normal", "span_direction", "chord"):
         np.testing.assert_allclose(getattr(whole, name), getattr(direct, name), atol=1e-10)
