@@ -50,10 +50,10 @@ def seconds(run: Callable[[], object], repeat: int) -> float:
 def load_evaluations(prescribed: birdmb.Bird, compliant: birdmb.Bird) -> tuple[float, float]:
     """Seconds of one evaluation of the loads in the two models' right-hand sides."""
     rigid = birdmb.RigidModel(prescribed)
-    frame = rigid.airframe
-    table = prescribed_wing(rigid.wing, frame.tail, np.array([0.01]), *rigid.discretisation)
+    aero = rigid.aero
+    table = prescribed_wing(rigid.wing, aero.tail, np.array([0.01]), *rigid.discretisation)
     twist, planar = np.array([18.0, 0.0, -2.0, 0.0, 0.1, 0.0]), rigid.motion.directions
-    fixed = best(lambda: symmetric_loads(table, 0, frame, twist, planar), inner=2000)
+    fixed = best(lambda: symmetric_loads(table, 0, aero, twist, planar), inner=2000)
 
     model = birdmb.MultibodyModel(compliant)
     tree, times, x = model.tree, np.array([0.01]), model.driven_state(0.01)

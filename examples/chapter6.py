@@ -59,7 +59,7 @@ class ProgramTail(birdmb.RigidModel):
 
     def _rates(self, table: Any, k: int, x: np.ndarray, *, influence: np.ndarray) -> np.ndarray:
         u, w, q, theta = x
-        frame, body = self._constants
+        aero, body = self._constants
         twist, no_derivatives = np.array([u, 0.0, w, 0.0, q, 0.0]), np.empty(0, int)
         elements = at_phase(table.elements, k)
         flow = wing_flow(elements, elements.velocity, twist, no_derivatives)
@@ -68,9 +68,9 @@ class ProgramTail(birdmb.RigidModel):
         wind = np.array(
             [-u - turning * surface.z + induced[0], 0.0, -w + turning * surface.x + induced[1]]
         )
-        fx, _, fz = tail_force(surface, frame.density, wind)[:, 0]
+        fx, _, fz = tail_force(surface, aero.density, wind)[:, 0]
         of_tail = np.array([fx, fz, surface.z * fx - surface.x * fz])
-        forces = symmetric_loads(table, k, frame, twist, no_derivatives)[::2, 0] + of_tail
+        forces = symmetric_loads(table, k, aero, twist, no_derivatives)[::2, 0] + of_tail
         s, c = np.sin(theta), np.cos(theta)
         return np.array(
             [

@@ -14,7 +14,7 @@ from birdmb.aerodynamics.tail import TailSurface, tail_force, tail_surface
 from birdmb.topology import Bird
 
 
-class Airframe(NamedTuple):
+class AeroConstants(NamedTuple):
     """Constants of the air and of all that is not the wing's shape."""
 
     density: float  # kg/m3
@@ -24,9 +24,9 @@ class Airframe(NamedTuple):
     slender: SlenderBody
 
 
-def airframe(bird: Bird) -> Airframe:
+def aero_constants(bird: Bird) -> AeroConstants:
     """The constants of a bird; what its topology leaves out has no loads."""
-    return Airframe(
+    return AeroConstants(
         density=bird.air.density,
         profile=bird.drag.profile_coefficient,
         tail=tail_surface(bird),
@@ -53,7 +53,7 @@ def tail_wind(tail: TailSurface, induced: FloatArray, twist: FloatArray) -> Floa
 
 @kernel
 def airframe_loads(
-    frame: Airframe, induced: FloatArray, twist: FloatArray, directions: IntArray
+    aero: AeroConstants, induced: FloatArray, twist: FloatArray, directions: IntArray
 ) -> FloatArray:
     """Wrench (6, 1 + d) of tail and body that move with a `twist` (6,); see `twist_loads`.
 
@@ -61,10 +61,10 @@ def airframe_loads(
     tail, with its derivatives. The tail lies in the plane of symmetry, where opposite circulations
     of both wings induce a velocity along y alone; it is left out, for it would only turn friction.
     """
-    tail = frame.tail
+    tail = aero.tail
     total = np.zeros((6, directions.size + 1))
     if tail.span > 0.0:
-        force = tail_force(tail, frame.density, tail_wind(tail, induced[:, 0], twist))
+        force = tail_force(tail, aero.density, tail_wind(tail, induced[:, 0], twist))
         total[:3, 0] = force[:, 0]
         slope = np.zeros(3)
         for m in range(directions.size):
@@ -88,7 +88,7 @@ def airframe_loads(
             total[3, m] = -tail.z * fy
             total[4, m] = tail.z * fx - tail.x * fz
             total[5, m] = tail.x * fy
-    by_velocity = body_loads(frame, twist[:3])
+    by_velocity = body_loads(aero, twist[:3])
     total[:, 0] += by_velocity[:, 0]
     for m in range(directions.size):
         if directions[m] < 3:
@@ -97,21 +97,8 @@ def airframe_loads(
 
 
 @kernel
-def body_loads(frame: Airframe, velocity: FloatArray) -> FloatArray:
+def body_loads(aero: AeroConstants, velocity: FloatArray) -> FloatArray:
     """Wrench (6, 4) of the body at a velocity (3,) m/s: value, derivatives by the velocity."""
-    loads = slender_body_loads(frame.slender, frame.density, velocity)
-    loads[:3] += body_drag_force(frame.body, velocity)
+    loads = slender_body_loads(aero.slender, aero.density, velocity)
+    loads[:3] += body_drag_force(aero.body, velocity)
     return loads
-
-
-@kernel
-def planar_airframe_loads(
-    frame: Airframe, induced: FloatArray, u: float, w: float, q: float
-) -> FloatArray:
-    """F_x, F_z (N) and M_y (N m) of tail and body in symmetric flight, (3,).
-
-    `induced` (2,) m/s as for `airframe_loads`; u, w (m/s) and q (rad/s) of the body.
-    """
-    twist = np.array([u, 0.0, w, 0.0, q, 0.0])
-    wrench = airframe_loads(frame, induced.reshape(2, 1), twist, np.empty(0, np.int64))
-    return np.array([wrench[0, 0], wrench[2, 0], wrench[4, 0]])

@@ -13,7 +13,7 @@ import numpy as np
 
 from birdmb._kernels import kernel
 from birdmb._typing import FloatArray, IntArray
-from birdmb.aerodynamics.airframe import Airframe, airframe_loads
+from birdmb.aerodynamics.airframe import AeroConstants, airframe_loads
 from birdmb.aerodynamics.elements import (
     ODD,
     Elements,
@@ -183,7 +183,7 @@ def pair_wakes(right: PrescribedWing, left: PrescribedWing) -> WakeTable:
 
 @kernel
 def symmetric_loads(
-    wing: PrescribedWing, k: int, frame: Airframe, twist: FloatArray, directions: IntArray
+    wing: PrescribedWing, k: int, aero: AeroConstants, twist: FloatArray, directions: IntArray
 ) -> FloatArray:
     """Wrench of the air (6, 1 + d) at the k-th phase on a bird in symmetric flight, exact.
 
@@ -198,12 +198,12 @@ def symmetric_loads(
         circulation,
         elements.induced_y @ circulation,
         elements.induced_z @ circulation,
-        frame.density,
-        frame.profile,
+        aero.density,
+        aero.profile,
     )
     wrench = wing_wrench(elements.position, forces)
     total = pair_wrench(wrench, wrench)
-    return total + airframe_loads(frame, wing.at_tail[k] @ circulation, twist, directions)
+    return total + airframe_loads(aero, wing.at_tail[k] @ circulation, twist, directions)
 
 
 @kernel
@@ -212,7 +212,7 @@ def free_loads(
     left: PrescribedWing,
     wakes: WakeTable,
     k: int,
-    frame: Airframe,
+    aero: AeroConstants,
     twist: FloatArray,
     directions: IntArray,
 ) -> FloatArray:
@@ -237,7 +237,7 @@ def free_loads(
     else:
         gamma[:] = wakes.inverse[k] @ np.concatenate((flow.bound, flow_left.bound))
         y[:], z[:] = wakes.induced_y[k] @ gamma, wakes.induced_z[k] @ gamma
-    density, profile = frame.density, frame.profile
+    density, profile = aero.density, aero.profile
     forces = element_forces(elements, flow.wind, gamma[:n], y[:n], z[:n], density, profile)
     of_right = wing_wrench(elements.position, forces)
     forces = element_forces(image, flow_left.wind, gamma[n:], y[n:], z[n:], density, profile)
@@ -245,4 +245,4 @@ def free_loads(
     total = pair_wrench(of_right, of_left)
     # In the plane of symmetry each wing induces half of what a pair of them would.
     induced = 0.5 * (right.at_tail[k] @ gamma[:n] + left.at_tail[k] @ gamma[n:])
-    return total + airframe_loads(frame, induced, twist, directions)
+    return total + airframe_loads(aero, induced, twist, directions)

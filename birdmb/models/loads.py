@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from birdmb._typing import FloatArray, IntArray
-from birdmb.aerodynamics.airframe import Airframe
+from birdmb.aerodynamics.airframe import AeroConstants
 from birdmb.models.loads_kernel import StackedLoads, StackedWing
 
 _WHOLE = tuple(name for name in StackedLoads._fields if name not in {"right", "left"})
@@ -86,11 +86,11 @@ class LoadsAlong:
 
     Args:
         stack: the loads, each array stacked along a first axis.
-        frame: constants of the air, tail and body.
+        aero: constants of the air, tail and body.
     """
 
-    def __init__(self, stack: StackedLoads, frame: Airframe) -> None:
-        self.stack, self._frame = stack, frame
+    def __init__(self, stack: StackedLoads, aero: AeroConstants) -> None:
+        self.stack, self._aero = stack, aero
 
     def taken(self, instants: IntArray) -> LoadsAlong:
         """Those at some of the instants (P,)."""
@@ -99,7 +99,7 @@ class LoadsAlong:
             StackedWing(*(array[instants] for array in wing)) for wing in (stack.right, stack.left)
         )
         whole = {name: getattr(stack, name)[instants] for name in _WHOLE}
-        return LoadsAlong(StackedLoads(**whole, right=right, left=left), self._frame)
+        return LoadsAlong(StackedLoads(**whole, right=right, left=left), self._aero)
 
     @cached_property
     def power(self) -> FloatArray:
@@ -117,7 +117,7 @@ class LoadsAlong:
 
     def at(self, k: int) -> Loads:
         """Those at the k-th instant."""
-        stack, tail = self.stack, self._frame.tail
+        stack, tail = self.stack, self._aero.tail
         of_tail = TailLoads(
             force=stack.tail_force[k],
             position=np.array([tail.x, 0.0, tail.z]),
@@ -142,7 +142,7 @@ class LoadsAlong:
         "profile" the drag of the wing's sections, "tail" and "body" all of theirs. Minus force
         times velocity of the point it acts at. `twists` (K, 6) m/s and rad/s are the body's.
         """
-        stack, tail = self.stack, self._frame.tail
+        stack, tail = self.stack, self._aero.tail
         wing, profile = np.zeros(len(twists)), np.zeros(len(twists))
         for side, each in ((1.0, stack.right), (-1.0, stack.left)):
             mirror = np.array([1.0, side, 1.0])

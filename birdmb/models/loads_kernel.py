@@ -8,7 +8,7 @@ import numpy as np
 
 from birdmb._kernels import kernel
 from birdmb._typing import FloatArray, IntArray
-from birdmb.aerodynamics.airframe import Airframe, body_loads, tail_wind
+from birdmb.aerodynamics.airframe import AeroConstants, body_loads, tail_wind
 from birdmb.aerodynamics.elements import clearance
 from birdmb.aerodynamics.joints import torques
 from birdmb.aerodynamics.pair import ElementLoads, pair_loads, pair_wrench
@@ -77,7 +77,7 @@ def loads_along(
     shapes: tuple[StackedShapes, StackedShapes],
     shape_of: IntArray,
     rigid_joint_count: int,
-    frame: Airframe,
+    aero: AeroConstants,
     angles: FloatArray,
     rates: FloatArray,
     twists: FloatArray,
@@ -101,7 +101,7 @@ def loads_along(
         _no_wing(count, n, angle_count),
         _no_wing(count, n, angle_count),
     )
-    tail = frame.tail
+    tail = aero.tail
     for k in range(count):
         twist = twists[k]
         right = place_wing(
@@ -122,11 +122,11 @@ def loads_along(
             continue
         is_mirrored = bool(alike and twist[1] == 0.0 and twist[3] == 0.0 and twist[5] == 0.0)
         of_right, of_left = pair_loads(
-            right.elements, left.elements, is_mirrored, frame.density, frame.profile, twist
+            right.elements, left.elements, is_mirrored, aero.density, aero.profile, twist
         )
         _keep_loads(stack.right, k, of_right, torques(right.velocity_per_rate, of_right.force))
         _keep_loads(stack.left, k, of_left, torques(left.velocity_per_rate, of_left.force))
-        of_body = body_loads(frame, twist[:3])[:, 0]
+        of_body = body_loads(aero, twist[:3])[:, 0]
         stack.body_force[k], stack.body_moment[k] = of_body[:3], of_body[3:]
         if tail.span > 0.0:
             # In the plane of symmetry each wing induces half of what a pair of them would.
@@ -135,7 +135,7 @@ def loads_along(
                 + tail_influence(tail, left.elements.node) @ of_left.circulation
             )
             wind = tail_wind(tail, induced, twist)
-            stack.tail_force[k] = tail_force(tail, frame.density, wind)[:, 0]
+            stack.tail_force[k] = tail_force(tail, aero.density, wind)[:, 0]
             stack.tail_angle[k] = tail_angle(tail, wind[0], wind[2])
             stack.tail_downwash[k] = induced[1]
         wrench = pair_wrench(

@@ -12,7 +12,7 @@ import numpy as np
 
 from birdmb._kernels import kernel
 from birdmb._typing import BoolArray, FloatArray, IntArray
-from birdmb.aerodynamics.airframe import Airframe, airframe_loads
+from birdmb.aerodynamics.airframe import AeroConstants, airframe_loads
 from birdmb.aerodynamics.elements import clearance
 from birdmb.aerodynamics.joints import torques_along
 from birdmb.aerodynamics.pair import circulations, pair_system, pair_wrench
@@ -40,7 +40,7 @@ class Constants(NamedTuple):
 
     joints: JointArrays
     links: TreeLinks
-    frame: Airframe
+    aero: AeroConstants
     springs: Springs  # of the C angles
     prescribed: BoolArray  # (B + C,) which coordinates follow a given motion
     rigid_joint_count: int  # how many joints at the shoulder turn a wing as a whole
@@ -126,8 +126,8 @@ def air_forces(
 
     And the clearance (2,) m of right and left wing; where one is negative forces are NaN.
     """
-    frame, is_mirrored = constants.frame, constants.is_mirrored
-    directions, tail = constants.links.directions, constants.frame.tail
+    aero, is_mirrored = constants.aero, constants.is_mirrored
+    directions, tail = constants.links.directions, constants.aero.tail
     body, angles = directions.size, motion.angles[rows[0]]
     loads = np.full((rows.size, body + angles.size), np.nan)
     joints = angles.size if is_mirrored else angles.size // 2
@@ -179,18 +179,18 @@ def air_forces(
     no_derivatives = np.empty(0, np.int64)
     forces = np.empty((rows.size, unknowns, 3, 1))
     for r in range(rows.size):
-        forces[r, :n] = _forces(frame, right, winds[r, :n], gamma[r, :n], y[r, :n], z[r, :n])
+        forces[r, :n] = _forces(aero, right, winds[r, :n], gamma[r, :n], y[r, :n], z[r, :n])
         of_right_wing = wing_wrench(right.elements.position, forces[r, :n])
         of_left_wing = of_right_wing
         if not is_mirrored:
-            forces[r, n:] = _forces(frame, left, winds[r, n:], gamma[r, n:], y[r, n:], z[r, n:])
+            forces[r, n:] = _forces(aero, left, winds[r, n:], gamma[r, n:], y[r, n:], z[r, n:])
             of_left_wing = wing_wrench(left.elements.position, forces[r, n:])
         induced = np.zeros((2, 1))
         if tail.span > 0.0:
             # In the plane of symmetry each wing induces half of what a pair of them would.
             induced = 0.5 * (at_tail @ gamma[r, :n] + at_tail_of_left @ gamma[r, -n:])
         wrench = pair_wrench(of_right_wing, of_left_wing)
-        wrench += airframe_loads(frame, induced, motion.twist[rows[r]], no_derivatives)
+        wrench += airframe_loads(aero, induced, motion.twist[rows[r]], no_derivatives)
         for b in range(body):
             loads[r, b] = wrench[directions[b], 0]
     about_joints = torques_along(right.velocity_per_rate, forces[:, :n])
@@ -241,7 +241,7 @@ def _meet(
 
 @kernel
 def _forces(
-    frame: Airframe,
+    aero: AeroConstants,
     placed: PlacedWing,
     wind: FloatArray,
     circulation: FloatArray,
@@ -250,5 +250,5 @@ def _forces(
 ) -> FloatArray:
     """Forces (N, 3, 1) N on the elements of a wing in `wind` (N, 3, 1) m/s."""
     return element_forces(
-        placed.elements, wind, circulation, induced_y, induced_z, frame.density, frame.profile
+        placed.elements, wind, circulation, induced_y, induced_z, aero.density, aero.profile
     )

@@ -96,7 +96,7 @@ class RigidModel(BirdModel):
         self.motion = motion_named(motion)
         refuse_asymmetric(bird, self.motion)
         self.state_names, self.state_units = self.motion.states, self.motion.units
-        self._constants = (self.airframe, rigid_body(bird, self.motion))
+        self._constants = (self.aero, rigid_body(bird, self.motion))
         self._phases_kept = 0
         self._tables: dict[tuple[float, float, int] | bytes, RigidTable] = {}
 
@@ -228,7 +228,7 @@ class RigidModel(BirdModel):
     def _trim(self, times: FloatArray) -> FloatArray:
         table, _ = self._table_for(times)
         with overflow_told(self.bird, "the flight in which the mean loads balance"):
-            return self._state_of(mean_trim(self.bird, table.right, self.airframe))
+            return self._state_of(mean_trim(self.bird, table.right, self.aero))
 
     def _state_of(self, planar: FloatArray) -> FloatArray:
         """State (n,) of a symmetric flight with the states u, w, q, theta (4,)."""
@@ -310,7 +310,7 @@ class RigidModel(BirdModel):
 
     def _wing_at(self, arrays: WingArrays, times: FloatArray) -> PrescribedWing:
         with overflow_told(self.bird, "the wing's circulation"):
-            wing = prescribed_wing(arrays, self.airframe.tail, times, *self.discretisation)
+            wing = prescribed_wing(arrays, self.aero.tail, times, *self.discretisation)
         if not wing.shapes.converged.all():
             t = float(times[np.argmin(wing.shapes.converged)])
             raise lifting_line_lost(self.bird, t, driver_motion(arrays, t)[0])

@@ -14,7 +14,7 @@ import numpy as np
 
 from birdmb._kernels import kernel
 from birdmb._typing import FloatArray, IntArray
-from birdmb.aerodynamics.airframe import Airframe
+from birdmb.aerodynamics.airframe import AeroConstants
 from birdmb.aerodynamics.prescribed import (
     PrescribedWing,
     WakeTable,
@@ -72,7 +72,7 @@ def rigid_rates(
     k: int,
     states: FloatArray,
     air: FloatArray,
-    frame: Airframe,
+    aero: AeroConstants,
     body: RigidBody,
     slopes_wanted: bool,
 ) -> tuple[FloatArray, FloatArray]:
@@ -91,9 +91,9 @@ def rigid_rates(
     twist[0], twist[1], twist[2] = twist[0] - wx, twist[1] - wy, twist[2] - wz
     directions = body.directions if slopes_wanted else body.directions[:0]
     if body.directions.size == 6:
-        found = free_loads(wing, left, wakes, k, frame, twist, directions)
+        found = free_loads(wing, left, wakes, k, aero, twist, directions)
     else:
-        found = symmetric_loads(wing, k, frame, twist, directions)
+        found = symmetric_loads(wing, k, aero, twist, directions)
     wrench, slopes = found[:, 0].copy(), np.zeros((6, _SIZE))
     for m in range(directions.size):
         for i in range(6):
@@ -184,7 +184,7 @@ def rates_along(
     phase: IntArray,
     states: FloatArray,
     air: FloatArray,
-    frame: Airframe,
+    aero: AeroConstants,
     body: RigidBody,
     slopes_wanted: bool,
 ) -> tuple[FloatArray, FloatArray]:
@@ -197,7 +197,7 @@ def rates_along(
     for i in range(count):
         if np.isfinite(states[i]).all():
             rates[i], jacobians[i] = rigid_rates(
-                wing, left, wakes, phase[i], states[i], air[i], frame, body, slopes_wanted
+                wing, left, wakes, phase[i], states[i], air[i], aero, body, slopes_wanted
             )
     return rates, jacobians
 
@@ -210,7 +210,7 @@ def integrate_rigid(
     x0: FloatArray,
     step: float,
     air: FloatArray,
-    frame: Airframe,
+    aero: AeroConstants,
     body: RigidBody,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Classical Runge-Kutta steps over a table at every half step.
@@ -226,18 +226,18 @@ def integrate_rigid(
     sensitivity = np.eye(n)
     for i in range(steps):
         k, g = 2 * i, air[2 * i + 1]
-        k1, j1 = rigid_rates(wing, left, wakes, k, x, air[k], frame, body, True)
+        k1, j1 = rigid_rates(wing, left, wakes, k, x, air[k], aero, body, True)
         s1 = j1 @ sensitivity
-        k2, j2 = rigid_rates(wing, left, wakes, k + 1, x + 0.5 * step * k1, g, frame, body, True)
+        k2, j2 = rigid_rates(wing, left, wakes, k + 1, x + 0.5 * step * k1, g, aero, body, True)
         s2 = j2 @ (sensitivity + 0.5 * step * s1)
-        k3, j3 = rigid_rates(wing, left, wakes, k + 1, x + 0.5 * step * k2, g, frame, body, True)
+        k3, j3 = rigid_rates(wing, left, wakes, k + 1, x + 0.5 * step * k2, g, aero, body, True)
         s3 = j3 @ (sensitivity + 0.5 * step * s2)
-        k4, j4 = rigid_rates(wing, left, wakes, k + 2, x + step * k3, air[k + 2], frame, body, True)
+        k4, j4 = rigid_rates(wing, left, wakes, k + 2, x + step * k3, air[k + 2], aero, body, True)
         s4 = j4 @ (sensitivity + step * s3)
         x = x + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
         sensitivity = sensitivity + step / 6.0 * (s1 + 2.0 * s2 + 2.0 * s3 + s4)
         rates[i] = k1
         states[i + 1] = x
     k = 2 * steps
-    rates[steps], _ = rigid_rates(wing, left, wakes, k, x, air[k], frame, body, False)
+    rates[steps], _ = rigid_rates(wing, left, wakes, k, x, air[k], aero, body, False)
     return states, rates, sensitivity

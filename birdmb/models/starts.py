@@ -37,7 +37,7 @@ def steady_states(
     `StateError` where the wing has no area.
     """
     weight = model.mass * model.bird.gravity
-    lift = 0.5 * model.airframe.density * model.wing_area * _LIFT_COEFFICIENT  # at 1 m/s
+    lift = 0.5 * model.aero.density * model.wing_area * _LIFT_COEFFICIENT  # at 1 m/s
     typical = float(np.sqrt(weight / lift)) if weight and lift else _TYPICAL_SPEED
     v, alpha, gamma = (
         axis.ravel()

@@ -95,7 +95,7 @@ class TreeModel(BirdModel):
             body_coordinates=self._coordinates_of_body,
             is_mirrored=self.is_mirrored,
             rigid_joint_count=self.rigid_joint_count,
-            frame=self.airframe,
+            aero=self.aero,
             springs=self._springs,
             prescribed=self.prescribed,
         )

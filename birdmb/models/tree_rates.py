@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from birdmb._typing import BoolArray, FloatArray, IntArray
-from birdmb.aerodynamics.airframe import Airframe
+from birdmb.aerodynamics.airframe import AeroConstants
 from birdmb.models.exudyn_tree import TreeInertia, tree_links
 from birdmb.models.failures import overflow_told, wing_misplaced
 from birdmb.models.instants import Instants, StackedInstants
@@ -28,7 +28,7 @@ class TreeRates:
         body_coordinates: those of the body, as for `bird_links`.
         is_mirrored: whether both wings always move as mirror images.
         rigid_joint_count: how many joints at the shoulder turn a wing as a whole.
-        frame: constants of the air, tail and body.
+        aero: constants of the air, tail and body.
         springs: of the joints and hinges of the right wing, then of the left one.
         prescribed: which coordinates (c,) of the tree follow a given motion.
     """
@@ -42,7 +42,7 @@ class TreeRates:
         body_coordinates: IntArray,
         is_mirrored: bool,
         rigid_joint_count: int,
-        frame: Airframe,
+        aero: AeroConstants,
         springs: Springs,
         prescribed: BoolArray,
     ) -> None:
@@ -54,7 +54,7 @@ class TreeRates:
         self.constants = Constants(
             joint_arrays(wing),
             tree_links(bird, body_coordinates, is_mirrored=is_mirrored),
-            frame,
+            aero,
             Springs(*(each[:count] for each in springs)),
             prescribed[: body + count],
             rigid_joint_count,

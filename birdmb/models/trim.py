@@ -9,7 +9,7 @@ from scipy.optimize import least_squares
 
 from birdmb._kernels import kernel
 from birdmb._typing import FloatArray
-from birdmb.aerodynamics.airframe import Airframe
+from birdmb.aerodynamics.airframe import AeroConstants
 from birdmb.aerodynamics.prescribed import PrescribedWing, symmetric_loads
 from birdmb.errors import StateError
 from birdmb.topology import Bird
@@ -23,7 +23,7 @@ _SMALLEST_DAMPING = 0.1
 _SETTLED = 1e-16  # (m/s2)^2
 
 
-def mean_trim(bird: Bird, wing: PrescribedWing, frame: Airframe) -> FloatArray:
+def mean_trim(bird: Bird, wing: PrescribedWing, aero: AeroConstants) -> FloatArray:
     """State (4,) u, w, q = 0, theta that balances the mean loads of a body held steady.
 
     `wing` holds phases at equal distances over a whole beat. Where no state balances them, the one
@@ -33,7 +33,7 @@ def mean_trim(bird: Bird, wing: PrescribedWing, frame: Airframe) -> FloatArray:
 
     def imbalance(y: FloatArray) -> FloatArray:
         weights = (bird.body.mass, bird.body.inertia_yy, bird.gravity)
-        return np.asarray(_imbalance(wing, frame, *weights, y))
+        return np.asarray(_imbalance(wing, aero, *weights, y))
 
     def residual(y: FloatArray) -> FloatArray:
         return imbalance(y)[:, 0]
@@ -70,7 +70,7 @@ def mean_trim(bird: Bird, wing: PrescribedWing, frame: Airframe) -> FloatArray:
 @kernel
 def _imbalance(
     wing: PrescribedWing,
-    frame: Airframe,
+    aero: AeroConstants,
     mass: float,
     inertia: float,
     gravity: float,
@@ -86,7 +86,7 @@ def _imbalance(
     velocities = np.array([0, 2])
     wrench = np.zeros((6, 3))
     for k in range(phases):
-        wrench += symmetric_loads(wing, k, frame, twist, velocities)
+        wrench += symmetric_loads(wing, k, aero, twist, velocities)
     total = np.zeros((3, 4))
     total[0, :3] = wrench[0] / (mass * phases)
     total[1, :3] = wrench[2] / (mass * phases)

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from birdmb._typing import FloatArray, IntArray
-from birdmb.aerodynamics.airframe import airframe
+from birdmb.aerodynamics.airframe import aero_constants
 from birdmb.aerodynamics.elements import place_elements
 from birdmb.aerodynamics.prescribed import driver_motion_along
 from birdmb.errors import ArgumentError, StateError
@@ -52,7 +52,7 @@ class BirdModel(ABC):
         self.wing = wing_arrays(bird.side("right"))
         self.has_like_wings = bird.is_symmetric
         self.left_wing = self.wing if self.has_like_wings else wing_arrays(bird.side("left"))
-        self.airframe = airframe(bird)
+        self.aero = aero_constants(bird)
         self._gust = gust
         self.period: float | None = bird.period
         self._steps_wanted = steps_per_beat
@@ -235,7 +235,7 @@ class BirdModel(ABC):
                 shapes,
                 shape_of,
                 self.rigid_joint_count,
-                self.airframe,
+                self.aero,
                 angles,
                 rates,
                 self._twist_through_air(times, self.body_in_space(states)),
@@ -246,7 +246,7 @@ class BirdModel(ABC):
                 k = int(np.argmax(misplaced))
                 t, distance = float(times[k]), float(wing.clearance[k])
                 raise wing_misplaced(self.bird, t, angles[k, side], distance)
-        return LoadsAlong(stack, self.airframe)
+        return LoadsAlong(stack, self.aero)
 
     @abstractmethod
     def _shapes_along(

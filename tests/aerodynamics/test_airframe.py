@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from birdmb.aerodynamics.airframe import airframe, planar_airframe_loads
+from birdmb.aerodynamics.airframe import aero_constants, airframe_loads
 from birdmb.aerodynamics.body_drag import body_drag_force
 from birdmb.aerodynamics.prescribed import free_loads, odd_wakes, prescribed_wing, symmetric_loads
 from birdmb.aerodynamics.tail import tail_angle, tail_force, tail_influence, tail_surface
@@ -16,6 +16,13 @@ DENSITY = 1.225
 def bird(ibis_tail):
     """With its tail along the body."""
     return ibis_tail.with_values({"tail.incidence_deg": 0})
+
+
+def planar_airframe_loads(aero, induced, u, w, q):
+    """F_x, F_z (N) and M_y (N m) of tail and body in symmetric flight."""
+    twist = np.array([u, 0.0, w, 0.0, q, 0.0])
+    wrench = airframe_loads(aero, induced.reshape(2, 1), twist, np.empty(0, np.int64))
+    return wrench[[0, 2, 4], 0]
 
 
 def wind(speed, alpha):
@@ -128,8 +135,8 @@ def test_pitching_up_swings_the_tail_down(bird):
 
 def quiet_loads(bird, u, w, q):
     """Loads of tail and body alone."""
-    frame = airframe(bird)
-    return planar_airframe_loads(frame, np.zeros(2), u, w, q)
+    aero = aero_constants(bird)
+    return planar_airframe_loads(aero, np.zeros(2), u, w, q)
 
 
 def test_a_furled_tail_has_no_loads(bird):
@@ -143,7 +150,7 @@ def test_body_drag_of_the_ibis(bird):
     S = 0.00813 x 1.2^(2/3) = 0.00918075 m2, diameter 0.10811702 m, Re = 100909.2, FR = 6.25109;
     C_d = 66.6 x 1.2^-0.511 x 6.2511^0.9015 x S^1.063 x Re^-0.197 = 0.2235279; drag 0.2463610 N.
     """
-    drag = airframe(bird).body
+    drag = aero_constants(bird).body
     assert body_drag_force(drag, np.array([14.0, 0.0, 0.0]))[0, 0] == pytest.approx(
         -0.2463610, rel=1e-6
     )
@@ -151,7 +158,7 @@ def test_body_drag_of_the_ibis(bird):
     assert fast / slow == pytest.approx(2 ** (2 - 0.197))
     own = bird.with_values({"drag.frontal_area": 0.01, "drag.body_coefficient": 0.3})
     # 1/2 x 1.225 x 0.01 x 0.3 x 100
-    slanting = body_drag_force(airframe(own).body, np.array([6.0, 0.0, 8.0]))[:, 0]
+    slanting = body_drag_force(aero_constants(own).body, np.array([6.0, 0.0, 8.0]))[:, 0]
     assert slanting == pytest.approx([-0.18375 * 0.6, 0.0, -0.18375 * 0.8])
 
 
@@ -161,13 +168,13 @@ def test_derivatives_of_all_loads_are_exact(bird, downwash):
     changed = bird.with_values(
         {"tail.downwash": downwash, "tail.incidence_deg": 2, "tail.apex.z": 0.05}
     )
-    frame = airframe(changed)
-    table = prescribed_wing(wing_arrays(changed), frame.tail, np.array([0.04]), 16, 0.5, False)
+    aero = aero_constants(changed)
+    table = prescribed_wing(wing_arrays(changed), aero.tail, np.array([0.04]), 16, 0.5, False)
     twist = np.array([14.0, 0.8, -0.5, -0.4, 0.7, 0.3])
     everything = np.arange(6)
 
     def loads(twist):
-        return free_loads(table, table, odd_wakes(table), 0, frame, twist, everything)
+        return free_loads(table, table, odd_wakes(table), 0, aero, twist, everything)
 
     exact = loads(twist)[:, 1:]
     errors = []
@@ -203,14 +210,14 @@ def test_loads_of_symmetric_flight_are_what_they_were(bird, at):
     changed = bird.with_values(
         {"tail.downwash": "wake and bound", "tail.incidence_deg": 2, "tail.apex.z": 0.05}
     )
-    frame, (k, u, w, q) = airframe(changed), at
+    aero, (k, u, w, q) = aero_constants(changed), at
     times = np.array([0.0, 0.04, 0.17])
-    table = prescribed_wing(wing_arrays(changed), frame.tail, times, 16, 0.5, False)
+    table = prescribed_wing(wing_arrays(changed), aero.tail, times, 16, 0.5, False)
     twist = np.array([u, 0.0, w, 0.0, q, 0.0])
-    planar = symmetric_loads(table, k, frame, twist, np.array([0, 2, 4]))
+    planar = symmetric_loads(table, k, aero, twist, np.array([0, 2, 4]))
     np.testing.assert_allclose(planar[::2], PLANAR_LOADS[at], rtol=1e-12, atol=1e-13)
     assert not planar[1::2].any()
-    free = free_loads(table, table, odd_wakes(table), k, frame, twist, np.arange(6))
+    free = free_loads(table, table, odd_wakes(table), k, aero, twist, np.arange(6))
     np.testing.assert_allclose(free[:, [0, 1, 3, 5]], planar, rtol=1e-12, atol=1e-13)
     # Sideways motion answers with sideways loads alone.
     np.testing.assert_allclose(free[::2, [2, 4, 6]], 0.0, atol=1e-12)
@@ -225,9 +232,9 @@ def test_profile_drag_of_a_still_wing(bird):
     forwards, no_derivatives = np.array([10.0, 0.0, 0.0, 0.0, 0.0, 0.0]), np.empty(0, int)
     loads = []
     for bare in (still, still.with_values({"drag.profile_coefficient": 0})):
-        frame = airframe(bare)
-        table = prescribed_wing(wing, frame.tail, np.array([0.0]), 32, 0.5, False)
-        loads.append(symmetric_loads(table, 0, frame, forwards, no_derivatives)[::2, 0])
+        aero = aero_constants(bare)
+        table = prescribed_wing(wing, aero.tail, np.array([0.0]), 32, 0.5, False)
+        loads.append(symmetric_loads(table, 0, aero, forwards, no_derivatives)[::2, 0])
     area = 2 * float((table.elements.chord * table.elements.width).sum())
     drag = loads[0] - loads[1]
     assert drag[0] == pytest.approx(-0.02 * 0.5 * DENSITY * 100 * area)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from birdmb.aerodynamics.airframe import Airframe
+from birdmb.aerodynamics.airframe import AeroConstants
 from birdmb.aerodynamics.body_drag import BodyDrag
 from birdmb.aerodynamics.elements import circulation_system, place_elements
 from birdmb.aerodynamics.joints import torques, velocity_per_joint_rate
@@ -228,12 +228,12 @@ def test_derivatives_by_the_state_are_exact(wing):
     """Against central differences, whose error falls by four when their step is halved."""
     table = prescribed_wing(wing, NO_TAIL, np.array([0.04]), 16, 0.5, False)
     placed = at_phase(table.elements, 0)
-    frame = Airframe(DENSITY, PROFILE, NO_TAIL, BodyDrag(0.0, 0.0), SlenderBody(0.0, 0.0))
+    aero = AeroConstants(DENSITY, PROFILE, NO_TAIL, BodyDrag(0.0, 0.0), SlenderBody(0.0, 0.0))
     planar = np.array([0, 2, 4])
     twist = np.array([17.0, 0.0, -1.5, 0.0, 0.7, 0.0])
 
     def loads(twist):
-        return symmetric_loads(table, 0, frame, twist, planar)
+        return symmetric_loads(table, 0, aero, twist, planar)
 
     exact = loads(twist)[:, 1:]
     errors = []

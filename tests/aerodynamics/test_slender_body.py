@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import birdmb
-from birdmb.aerodynamics.airframe import airframe, body_loads
+from birdmb.aerodynamics.airframe import aero_constants, body_loads
 from birdmb.aerodynamics.slender_body import SlenderBody, slender_body_loads
 
 DENSITY = 1.225
@@ -47,7 +47,7 @@ def test_it_unsettles_pitch_and_yaw_of_a_bird_and_costs_no_energy(ibis_tail):
     values = {"body.side_area": 0.02, "body.side_coefficient": 0.5, "body.volume": 1.2e-3}
     stout = ibis_tail.with_values(values | {"wing.discretisation": 16})
     slim = ibis_tail.with_values({"wing.discretisation": 16})
-    assert not body_loads(airframe(slim), np.array([14.0, 1.0, -1.0]))[3:].any()
+    assert not body_loads(aero_constants(slim), np.array([14.0, 1.0, -1.0]))[3:].any()
     slow = {}
     for bird in (stout, slim):
         cycle = birdmb.find_limit_cycle(birdmb.RigidModel(bird, motion="free"))

@@ -37,7 +37,7 @@ def test_steady_flights_have_their_incidence_path_angle_and_speed(ibis):
     speed = np.hypot(u, w)
     assert np.allclose(speed[2:], 2 * speed[:2])
     # A lift coefficient of 0.5 carries the weight.
-    lift = 0.5 * model.airframe.density * speed[0] ** 2 * 0.5 * model.wing_area
+    lift = 0.5 * model.aero.density * speed[0] ** 2 * 0.5 * model.wing_area
     assert lift == pytest.approx(ibis.body.mass * ibis.gravity)
 
 

@@ -27,7 +27,7 @@ def with_loads(cycle, **changes):
     stack = cycle.beat.loads_along.stack
     stack = stack._replace(right=stack.right._replace(**changes))
     changed = copy.copy(cycle)
-    along = LoadsAlong(stack, cycle.model.airframe)
+    along = LoadsAlong(stack, cycle.model.aero)
     changed.__dict__["beat"] = replace(cycle.beat, loads_along=along)
     return changed
 
