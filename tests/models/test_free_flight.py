@@ -95,6 +95,47 @@ def test_modes_of_a_glider_are_those_of_its_linearised_equations(ibis_tail):
     assert names.count(("longitudinal", "phugoid")) == 2
 
 
+def test_modes_of_a_glider_are_those_of_classical_linear_theory(ibis_tail):
+    """Etkin & Reid (1996), section 4.9: small disturbances of a steady flight, planes apart.
+
+    The derivatives are differences of the reported loads, which come from both circulations of one
+    system; the model takes exact ones of even and odd parity.
+    """
+    model = birdmb.RigidModel(glider(ibis_tail), motion="free")
+    cycle = birdmb.find_limit_cycle(model)
+    mass, gravity, theta = model.mass, model.bird.gravity, cycle.x0[7]
+    inertia = model.bird.body.inertia_tensor
+    u, w = cycle.x0[[0, 2]]
+    h = 1e-4
+
+    def derivatives(component):
+        ahead, back = np.tile(cycle.x0, (2, 1))
+        ahead[component] += h
+        back[component] -= h
+        loads = model.loads_along(np.zeros(2), np.array([ahead, back])).stack
+        wrenches = np.hstack([loads.force, loads.moment])
+        return (wrenches[0] - wrenches[1]) / (2 * h)
+
+    X, Y, Z, L, M, N = np.column_stack([derivatives(k) for k in range(6)])
+    c, s = gravity * np.cos(theta), gravity * np.sin(theta)
+    side = [1, 3, 5]  # v, p, r
+    rolling = np.linalg.solve(inertia[np.ix_([0, 2], [0, 2])], np.array([L[side], N[side]]))
+    lateral = np.zeros((4, 4))
+    lateral[0] = [*(Y[side] / mass + [0.0, w, -u]), c]
+    lateral[1:3, :3] = rolling
+    lateral[3] = [0.0, 1.0, np.tan(theta), 0.0]
+    plane = [0, 2, 4]  # u, w, q
+    longitudinal = np.zeros((4, 4))
+    longitudinal[0] = [*(X[plane] / mass + [0.0, 0.0, -w]), -c]
+    longitudinal[1] = [*(Z[plane] / mass + [0.0, 0.0, u]), -s]
+    longitudinal[2, :3] = M[plane] / inertia[1, 1]
+    longitudinal[3, 2] = 1.0
+    for name, matrix in (("lateral", lateral), ("longitudinal", longitudinal)):
+        found = [mode.multiplier for mode in cycle.flight_modes if mode.plane == name]
+        exact = np.exp(np.linalg.eigvals(matrix) * model.period)
+        np.testing.assert_allclose(np.sort_complex(found), np.sort_complex(exact), atol=2e-6)
+
+
 def test_power_and_losses_balance_in_a_flight_that_is_not_symmetric(model):
     """Massless wings: what they do against the air is lost to it or gained by the body."""
     times, twist = np.array([0.03]), ASIDE[None, :6]
