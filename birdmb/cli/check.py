@@ -18,7 +18,7 @@ from birdmb.models.natural_oscillation import (
 )
 from birdmb.studies.bird_warnings import bird_warnings, load_warnings
 from birdmb.studies.refinement import LoadChange, load_change
-from birdmb.topology import BONES, SIDES, Bird
+from birdmb.topology import SIDES, Bird
 from birdmb.wing.outline import span_and_area
 
 _DRAG_SPEED = 10.0  # m/s
@@ -104,15 +104,14 @@ def _tail_and_drag(bird: Bird) -> list[tuple[str, str, str]]:
     if bird.drag.profile_coefficient:
         rows.append(("profile drag coefficient", f"{bird.drag.profile_coefficient:.4g}", ""))
     if bird.drag.body:
-        drag = -body_drag_force(body_drag(bird), np.array([_DRAG_SPEED, 0.0, 0.0]))[0, 0]
+        drag = -body_drag_force(body_drag(bird.assembled), np.array([_DRAG_SPEED, 0.0, 0.0]))[0, 0]
         rows.append((f"body drag at {_DRAG_SPEED:g} m/s", f"{drag:.3g}", "N"))
     return rows
 
 
 def _segments(bird: Bird) -> Table:
     table = table_of("Segments of one wing", "segment", "length, m", "mass, kg", numbers=(1, 2))
-    for bone in BONES:
-        segment = getattr(bird.segments, bone)
+    for bone, segment in bird.segments.items():
         table.add_row(bone, f"{segment.length:.4g}", f"{segment.mass:.4g}")
     return table
 

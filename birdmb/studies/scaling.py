@@ -10,7 +10,7 @@ from scipy.optimize import root
 
 from birdmb._typing import FloatArray
 from birdmb.errors import ArgumentError, BirdmbError
-from birdmb.topology import BONES, Bird
+from birdmb.topology import Bird
 from birdmb.wing.outline import span_and_area
 
 _FIT = 1e-9
@@ -75,8 +75,8 @@ def scale_bird(like: Bird, mass: float) -> ScaledBird:
         "wing.root.z": like.wing.root.z * chord,
         **_wings(like, bones, feathers),
     }
-    for bone in BONES:
-        segment, name = getattr(like.segments, bone), f"segments.{bone}"
+    for bone, segment in like.segments.items():
+        name = f"segments.{bone}"
         values[f"{name}.mass"] = segment.mass * heavier
         inertia = np.array(segment.inertia) * heavier * bones**2
         values[f"{name}.inertia"] = inertia.tolist()
@@ -125,7 +125,7 @@ def _body(like: Bird, heavier: float, longer: float) -> dict[str, float]:
 
 
 def _wings(like: Bird, bones: float, feathers: float) -> dict[str, Any]:
-    lengths = {f"segments.{b}.length": getattr(like.segments, b).length * bones for b in BONES}
+    lengths = {f"segments.{b}.length": s.length * bones for b, s in like.segments.items()}
     rachides = {f"feathers.{f.name}.length": f.length * feathers for f in like.feathers}
     return {
         **lengths,

@@ -7,7 +7,7 @@ import json
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, TypeVar, get_args
 
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel, RootModel, ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails, PydanticCustomError
 
@@ -172,6 +172,9 @@ def _field(model: type[BaseModel], location: Location) -> tuple[type[BaseModel],
     owner, field = model, None
     for part in location:
         if isinstance(part, str):
+            if issubclass(model, RootModel):  # a table of parts by names of the user's
+                model = next(_models_in(model.model_fields["root"].annotation), model)
+                continue
             owner = model
             known = model.model_fields.get(part) or model.model_fields.get(
                 part.removesuffix("_deg")
