@@ -81,8 +81,8 @@ class Bird(Part):
                 )
         if (known := _segment_names(info)) is None:
             return joints
-        for joint in joints:
-            _require_segment(joint.segment, known, joint.name, "segment")
+        for i, joint in enumerate(joints):
+            _require_segment(joint.segment, known, i, "segment")
         for inner, outer in pairwise(joints):
             if known.index(outer.segment) < known.index(inner.segment):
                 raise problem(
@@ -107,10 +107,8 @@ class Bird(Part):
         ordered = _from_shoulder_to_tip(sections, "section", _segment_names(info))
         for section in ordered[:-1]:
             if section.chord == 0:
-                raise problem(
-                    "is 0; only the section at the wing's tip may be a point",
-                    f"{section.name}.chord",
-                )
+                text = "must be more than 0; only the section at the wing's tip may be a point"
+                raise problem(text, sections.index(section), "chord")
         return ordered
 
     @field_validator("attachments")
@@ -121,8 +119,8 @@ class Bird(Part):
         if twice := _first_repeated(one.name for one in attachments):
             raise problem(f"two are called {shown(twice)}; each needs a name of its own")
         if (known := _segment_names(info)) is not None:
-            for one in attachments:
-                _require_segment(one.on, (BODY, *known), one.name, "on")
+            for i, one in enumerate(attachments):
+                _require_segment(one.on, (BODY, *known), i, "on")
         return attachments
 
     @model_validator(mode="after")
@@ -135,18 +133,20 @@ class Bird(Part):
             )
         skin = self.wing.propatagium
         if skin is not None and skin not in self.segments:
-            raise problem(_no_segment(skin, self.segments.names), "wing.propatagium")
+            raise problem(_no_segment(skin, self.segments.names), "wing", "propatagium")
         return self
 
     @model_validator(mode="after")
     def _shares_are_of_joints(self) -> Self:
-        for feather in self.feathers:
+        for i, feather in enumerate(self.feathers):
             for joint, _ in feather.shares:
                 if joint not in self.joint_names:
                     raise problem(
                         f"no joint is called {shown(joint)}; "
                         f"the nearest: {nearest(joint, self.joint_names)}",
-                        f"feathers.{feather.name}.shares",
+                        "feathers",
+                        i,
+                        "shares",
                     )
         return self
 
@@ -323,9 +323,9 @@ def _no_segment(name: str, known: Sequence[str]) -> str:
     return f"no segment is called {shown(name)}; the nearest: {nearest(name, known)}"
 
 
-def _require_segment(name: str, known: Sequence[str], owner: str, key: str) -> None:
+def _require_segment(name: str, known: Sequence[str], item: int, key: str) -> None:
     if name not in known:
-        raise problem(_no_segment(name, known), f"{owner}.{key}")
+        raise problem(_no_segment(name, known), item, key)
 
 
 def _from_shoulder_to_tip(
@@ -334,10 +334,10 @@ def _from_shoulder_to_tip(
     """Feathers or sections in their order along the wing, which must reach from end to end."""
     if twice := _first_repeated(one.name for one in chords):
         raise problem(f"two {kind}s are called {shown(twice)}; each needs a name of its own")
-    if segments is None:
+    if segments is None or not chords:
         return chords
-    for one in chords:
-        _require_segment(one.bone, segments, one.name, "bone")
+    for i, one in enumerate(chords):
+        _require_segment(one.bone, segments, i, "bone")
 
     def place(one: ChordT) -> float:
         return segments.index(one.bone) + one.position
@@ -349,10 +349,11 @@ def _from_shoulder_to_tip(
                 f"{shown(inner.name)} and {shown(outer.name)} have the same place; "
                 f"each {kind} needs a place of its own"
             )
-    if not ordered or place(ordered[0]) != 0:
+    if place(ordered[0]) != 0:
         raise problem(f"none is at the shoulder; one must be (bone {segments[0]}, position 0)")
     if place(ordered[-1]) != len(segments):
-        raise problem(f"none is at the wing's tip; one must be (bone {segments[-1]}, position 1)")
+        last = segments[-1]
+        raise problem(f"none is at the {last}'s tip; one must be (bone {last}, position 1)")
     return ordered
 
 

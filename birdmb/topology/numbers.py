@@ -58,8 +58,8 @@ Density = Annotated[_NonNegative, _within(1e-9, 1e5, "air has 1.2 kg/m3, water 1
 Viscosity = Annotated[_Positive, _within(1e-12, 1e6, "water has 1e-6 m2/s, honey 1e-2")]
 Gravity = Annotated[_NonNegative, _within(1e-9, 1e4, "the sun has 274 m/s2", or_zero=True)]
 Coefficient = Annotated[_NonNegative, _within(1e-9, 1e3, "a flat plate has 2", or_zero=True)]
-LiftSlope = Annotated[_Positive, _within(1e-3, 1e2, "thin sections have 2 pi")]
-MomentCoefficient = Annotated[Real, _within(-1e2, 1e2, "cambered sections have some -0.1")]
+LiftSlope = Annotated[_Positive, _within(1e-6, 1e3, "thin sections have 2 pi")]
+MomentCoefficient = Annotated[Real, _within(-1e3, 1e3, "cambered sections have some -0.1")]
 Stiffness = Annotated[
     _NonNegative,
     _within(1e-40, 1e12, "a joint that hardly gives is prescribed", or_zero=True),

@@ -179,14 +179,12 @@ MISTAKES = {
     "joint on an unknown segment": (
         'name = "shoulder.flap"\nsegment = "humerus"',
         'name = "shoulder.flap"\nsegment = "ulna"',
-        'shoulder.flap.segment: must be "humerus", "forearm" or "hand", not "ulna" '
-        "(segment that the joint carries)",
+        'shoulder.flap.segment: no segment is called "ulna"; the nearest: hand, humerus, forearm',
     ),
     "feather on an unknown bone": (
         TIP,
         'name = "1"\nbone = "thumb"\nposition = 1.0',
-        'feathers.1.bone: must be "humerus", "forearm" or "hand", not "thumb" '
-        "(bone that the feather is rooted on)",
+        'feathers.1.bone: no segment is called "thumb"; the nearest: humerus, hand, forearm',
     ),
     "feather beyond its bone": (
         TIP,

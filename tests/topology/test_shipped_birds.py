@@ -6,7 +6,9 @@ import pickle
 import numpy as np
 import pytest
 
-from birdmb.topology import BONES, Apex, Drag, Tail, load_bird
+from birdmb.topology import Apex, Drag, Tail, load_bird
+
+BONES = ("humerus", "forearm", "hand")
 
 NAMES = (
     "ibis",
