@@ -78,8 +78,8 @@ def trim(
         typer.Option(
             metavar="NAME=LOW:HIGH",
             help="Trim by this value of the bird, within the bounds; twice with a --speed.",
-            show_default="forearm.roll.offset_deg=-30:30, with a speed "
-            "shoulder.flap.amplitude_deg=15:70 too",
+            show_default="the offset of the joint that turns the chords, -30 to 30 degrees; with "
+            "a speed the amplitude of the one that flaps too, 15 to 70",
         ),
     ] = None,
     climb_rate: ClimbRate = 0.0,
