@@ -15,7 +15,7 @@ from matplotlib.figure import Figure, SubFigure
 from matplotlib.lines import Line2D
 
 from birdmb._typing import FloatArray
-from birdmb.figures.style import stroke_speed, title_of
+from birdmb.figures.style import holds_still, stroke_speed, title_of
 from birdmb.wing.outline import WingOutline, wing_outline
 
 if TYPE_CHECKING:
@@ -143,6 +143,8 @@ def _poses(cycle: FlightCycle) -> list[Pose]:
 
 
 def _motion(cycle: FlightCycle, t: float) -> str:
+    if holds_still(cycle):
+        return "gliding"
     speed = stroke_speed(cycle)
     now = float(np.interp(t, cycle.beat.times, speed)) / max(float(np.abs(speed).max()), 1e-12)
     if abs(now) >= _TURNING:
