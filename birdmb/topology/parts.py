@@ -21,13 +21,20 @@ from pydantic import (
     Field,
     Tag,
     TypeAdapter,
+    WithJsonSchema,
     field_serializer,
     model_validator,
 )
 from pydantic_core import PydanticCustomError
 
 from birdmb._typing import FloatArray
-from birdmb.topology.inertia import Tensor, from_diagonal, moments_by_key, possible_inertia
+from birdmb.topology.inertia import (
+    Tensor,
+    from_diagonal,
+    moments_by_key,
+    possible_inertia,
+    tell_of_tensor,
+)
 from birdmb.topology.messages import BRANCH, problem, shown
 from birdmb.topology.names import Label
 from birdmb.topology.numbers import (
@@ -103,6 +110,8 @@ class Gait(Part):
 
 class Body(Part):
     """The body without its wings."""
+
+    model_config = ConfigDict(json_schema_extra=tell_of_tensor)
 
     mass: Mass = Field(description="mass of the body without its wings, kg")
     inertia_yy: Inertia = Field(
@@ -217,13 +226,18 @@ class Wing(Part):
         description="distance of the leading edge and of the feather roots from the bones, m"
     )
     discretisation: Annotated[
-        Annotated[str, AfterValidator(_known_preset), Tag(f"{BRANCH}preset")]
+        Annotated[
+            str,
+            AfterValidator(_known_preset),
+            WithJsonSchema({"type": "string", "enum": [*PRESETS]}),
+            Tag(f"{BRANCH}preset"),
+        ]
         | Annotated[Elements, Tag(f"{BRANCH}elements")]
         | Annotated[Discretisation, Tag(f"{BRANCH}table")],
         Discriminator(
             _kind_of_discretisation, custom_error_type="choice", custom_error_message=_CHOICE
         ),
-    ] = "converged"
+    ] = Field(default="converged", description="how finely the wing's loads are computed")
 
     @property
     def resolved_discretisation(self) -> Discretisation:
