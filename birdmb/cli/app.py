@@ -295,6 +295,29 @@ def branch(
 
 
 @app.command(
+    epilog="Exit status: 0; 2 wrong option, or a file that cannot be written.\n\n"
+    "Example: birdmb schema --out birdmb.schema.json"
+)
+def schema(
+    markdown: Annotated[
+        bool, typer.Option("--markdown", help="The page docs/format.md instead of the schema.")
+    ] = False,
+    out: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Write it here.", show_default="standard output"),
+    ] = None,
+) -> None:
+    """Print the JSON schema of topology files, with which editors complete keys and mark mistakes.
+
+    A topology file whose first line is `#:schema ./birdmb.schema.json` names its schema.
+    """
+    with reported():
+        from birdmb.cli.schema import run  # noqa: PLC0415
+
+        run(markdown, out)
+
+
+@app.command(
     epilog="Exit status: 0; 2 wrong option; 130 interrupted. Takes a minute or two.\n\n"
     "Example: birdmb validate"
 )

@@ -41,6 +41,19 @@ def requested_bird(
     return found
 
 
+def lasting(assignments: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Split assignments into what makes another bird and what is for a computation alone.
+
+    The latter is how finely a bird is computed: a file that is written has what it had before.
+    """
+    passing = [text for text in assignments if _is_discretisation(parse_assignment(text)[0])]
+    return [text for text in assignments if text not in passing], passing
+
+
+def _is_discretisation(name: str) -> bool:
+    return name.split(".")[:2] == ["wing", "discretisation"]
+
+
 def _completing(
     bird: Bird, assigned: Collection[str], varied: Mapping[str, object]
 ) -> dict[str, object]:

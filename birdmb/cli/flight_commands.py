@@ -88,7 +88,11 @@ def trim(
     assignments: Assignments = None,
     out: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Write the trimmed bird as a topology file (TOML)."),
+        typer.Option(
+            metavar="FILE",
+            help="Write the topology file with the trimmed values and those of --set, its comments "
+            "kept. A --set wing.discretisation is for the search alone.",
+        ),
     ] = None,
 ) -> None:
     """Trim the flight of a bird: to level flight, at a wanted speed, or to a climb rate."""
@@ -101,7 +105,16 @@ def trim(
 
         from birdmb.cli.trim import run  # noqa: PLC0415 - not before all of it is sound
 
-        run(bird, bounds, climb_rate, speed, model=model.value, out=out)
+        run(
+            bird,
+            topology,
+            assignments or [],
+            bounds,
+            climb_rate,
+            speed,
+            model=model.value,
+            out=out,
+        )
 
 
 @commands.command(

@@ -10,7 +10,7 @@ import birdmb
 from birdmb.cli.outcome import InputError
 from birdmb.studies.scaling import scale_bird
 from birdmb.topology import load_bird
-from birdmb.topology.writing import bird_text, write_bird
+from birdmb.topology.writing import bird_text
 
 
 def run(mass: float, like: Path | None, out: Path | None) -> None:
@@ -19,7 +19,7 @@ def run(mass: float, like: Path | None, out: Path | None) -> None:
     if out is None:
         typer.echo(bird_text(scaled.bird, scaled.assumptions), nl=False)
         return
-    typer.echo(f"wrote {write_bird(scaled.bird, out, scaled.assumptions)}")
+    typer.echo(f"wrote {scaled.bird.save(out, about=scaled.assumptions)}")
 
 
 def _ibis() -> Path:

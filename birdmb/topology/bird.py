@@ -7,6 +7,8 @@ import json
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise
+from os import PathLike
+from pathlib import Path
 from typing import Any, Self, TypeVar
 
 from pydantic import Field, ValidationInfo, field_validator, model_validator
@@ -29,6 +31,7 @@ from birdmb.topology.parts import (
 from birdmb.topology.sections import Section
 from birdmb.topology.segments import Segments
 from birdmb.topology.values import is_resolution, named_places, place_of, put_values, value_at
+from birdmb.topology.writing import write_bird
 
 ChordT = TypeVar("ChordT", Feather, Section)
 
@@ -294,6 +297,32 @@ class Bird(Part):
         """
         self.joint(name)
         return self.with_values({f"{name}.{key}": value for key, value in values.items()})
+
+    def save(
+        self,
+        path: str | PathLike[str],
+        *,
+        like: str | PathLike[str] | None = None,
+        about: Sequence[str] = (),
+    ) -> Path:
+        """Write a topology file that `load_bird` reads as this bird.
+
+        A file that is there is replaced once the new one is whole.
+
+        Args:
+            path: the file to write.
+            like: the topology file, perhaps the same, whose comments, order and typed values are
+                kept; only what is another value in this bird is changed.
+            about: lines of comment to put at the top.
+
+        Returns:
+            The path.
+
+        Raises:
+            OutputError: the file cannot be written.
+            TopologyError: `like` is no topology file, or its text cannot be kept.
+        """
+        return write_bird(self, path, about, like)
 
     def fingerprint(self) -> str:
         """Return a SHA-256 hash of all values, in hexadecimal, the same in any process.

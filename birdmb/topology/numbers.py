@@ -8,10 +8,13 @@ number: where it is allowed, it means that there is nothing of the kind.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Annotated
 
-from pydantic import AfterValidator, Field, Strict
-from pydantic_core import PydanticCustomError
+from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, Strict
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, PydanticCustomError
+from pydantic_core.core_schema import no_info_after_validator_function
 
 OUT_OF_RANGE = "out_of_range"
 
@@ -19,19 +22,43 @@ _SIZES = "wings span 0.1 mm to 1 km"
 _WEIGHTS = "birds weigh 1e-9 to 1e5 kg"
 
 
-def _within(low: float, high: float, why: str, *, or_zero: bool = False) -> AfterValidator:
+@dataclass(frozen=True)
+class _Range:
     """A check that a number is from `low` to `high`, or else 0 if that is allowed.
 
     `why` is a reason for the user, who gets a sentence from `birdmb.topology.messages`.
     """
-    wanted = f"{'0 or ' if or_zero else ''}{low:g} to {high:g}"
 
-    def check(value: float) -> float:
-        if low <= value <= high or (or_zero and value == 0):
+    low: float
+    high: float
+    why: str
+    or_zero: bool
+
+    def __get_pydantic_core_schema__(
+        self, source: object, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        return no_info_after_validator_function(self._checked, handler(source))
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        number = handler(schema)
+        kind: JsonSchemaValue = {"type": number["type"]}
+        # A bound that is put on a range, Pydantic tells by its own name.
+        lows = [number[key] for key in ("minimum", "ge") if key in number]
+        highs = [number[key] for key in ("maximum", "le") if key in number]
+        bounds = {"minimum": max([self.low, *lows]), "maximum": min([self.high, *highs])}
+        return {**kind, "anyOf": [{"enum": [0]}, bounds]} if self.or_zero else {**kind, **bounds}
+
+    def _checked(self, value: float) -> float:
+        if self.low <= value <= self.high or (self.or_zero and value == 0):
             return value
-        raise PydanticCustomError(OUT_OF_RANGE, "{wanted}", {"wanted": wanted, "why": why})
+        wanted = f"{'0 or ' if self.or_zero else ''}{self.low:g} to {self.high:g}"
+        raise PydanticCustomError(OUT_OF_RANGE, "{wanted}", {"wanted": wanted, "why": self.why})
 
-    return AfterValidator(check)
+
+def _within(low: float, high: float, why: str, *, or_zero: bool = False) -> _Range:
+    return _Range(low, high, why, or_zero)
 
 
 # Strict: neither "4.0" nor true is a number.

@@ -18,12 +18,13 @@ from pydantic import (
     Discriminator,
     Field,
     Tag,
+    WithJsonSchema,
     model_validator,
 )
 from pydantic_core import PydanticCustomError
 
 from birdmb._typing import FloatArray
-from birdmb.topology.inertia import moments_by_key
+from birdmb.topology.inertia import moments_by_key, tell_of_tensor
 from birdmb.topology.messages import BRANCH, problem, shown
 from birdmb.topology.names import Label
 from birdmb.topology.numbers import (
@@ -90,6 +91,8 @@ class Gait(Part):
 
 class Body(Part):
     """The body without its wings."""
+
+    model_config = ConfigDict(json_schema_extra=tell_of_tensor)
 
     mass: Mass = Field(description="mass of the body without its wings, kg")
     inertia_yy: Inertia = Field(
@@ -237,13 +240,18 @@ class Wing(Part):
         default=Profile(), description="profile of all sections that have none of their own"
     )
     discretisation: Annotated[
-        Annotated[str, AfterValidator(_known_preset), Tag(f"{BRANCH}preset")]
+        Annotated[
+            str,
+            AfterValidator(_known_preset),
+            WithJsonSchema({"type": "string", "enum": [*PRESETS]}),
+            Tag(f"{BRANCH}preset"),
+        ]
         | Annotated[Elements, Tag(f"{BRANCH}elements")]
         | Annotated[Discretisation, Tag(f"{BRANCH}table")],
         Discriminator(
             _kind_of_discretisation, custom_error_type="choice", custom_error_message=_CHOICE
         ),
-    ] = "converged"
+    ] = Field(default="converged", description="how finely the wing's loads are computed")
 
     @property
     def resolved_discretisation(self) -> Discretisation:

@@ -5,7 +5,7 @@ import pytest
 
 import birdmb
 from birdmb.studies.scaling import scale_bird
-from birdmb.topology.writing import bird_text, write_bird
+from birdmb.topology.writing import bird_text
 from birdmb.wing.outline import span_and_area
 
 
@@ -64,7 +64,7 @@ def test_impossible_masses(ibis, mass):
 def test_a_bird_that_was_written_is_read_as_the_same(birds, tmp_path):
     changed = birds[0].with_values({"forearm.roll.offset": 0.123456789012345, "tail": None})
     for bird in (*birds, changed, scale_bird(birds[2], 0.7).bird):
-        write_bird(bird, tmp_path / "bird.toml", ["A line."])
+        bird.save(tmp_path / "bird.toml", about=["A line."])
         assert birdmb.load_bird(tmp_path / "bird.toml") == bird
     text = bird_text(birds[0], ["One.", "Two."])
     assert text.startswith("# One.\n# Two.\n")

@@ -16,6 +16,7 @@ CHOICE = (
     'must be "converged" or "published", a whole number of elements per wing, '
     "or a table of scheme, elements and rounding"
 )
+FINENESS = "(how finely the wing's loads are computed)"
 INERTIA = (
     "(inertia about the segment's centre of mass, kg m2: three moments about x, y, z or a "
     "3x3 tensor)"
@@ -260,17 +261,17 @@ MISTAKES = {
     "unknown preset": (
         'discretisation = "converged"',
         'discretisation = "coarse"',
-        f'wing.discretisation: {CHOICE}, not "coarse"',
+        f'wing.discretisation: {CHOICE}, not "coarse" {FINENESS}',
     ),
     "half an element": (
         'discretisation = "converged"',
         "discretisation = 8.5",
-        f"wing.discretisation: {CHOICE}, not 8.5",
+        f"wing.discretisation: {CHOICE}, not 8.5 {FINENESS}",
     ),
     "one element": (
         'discretisation = "converged"',
         "discretisation = 1",
-        "wing.discretisation: must be 2 or more, not 1",
+        f"wing.discretisation: must be 2 or more, not 1 {FINENESS}",
     ),
     "too round": (
         'discretisation = "converged"',
