@@ -1,5 +1,6 @@
 from .errors import ArgumentError, BirdmbError, OrbitError, StateError, TopologyError
 from .figures import plot_gust_response
+from .kinematics import JointMotion, KinematicsError, KinematicsFit, fit_kinematics
 from .models import (
     Beat,
     CosineGust,
@@ -56,6 +57,9 @@ __all__ = [
     "FlightCycle",
     "FloquetResult",
     "GaussianGust",
+    "JointMotion",
+    "KinematicsError",
+    "KinematicsFit",
     "LimitCycle",
     "Loads",
     "MultibodyModel",
@@ -77,6 +81,7 @@ __all__ = [
     "continue_branch",
     "find_limit_cycle",
     "find_limit_cycles",
+    "fit_kinematics",
     "floquet",
     "gust_response",
     "largest_lyapunov_exponent",
