@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
+from contextlib import suppress
 
 import numpy as np
 
@@ -16,6 +17,8 @@ from birdmb.models.natural_oscillation import (
     oscillations_of,
 )
 from birdmb.models.rigid import RigidModel
+from birdmb.studies.driven_motion import is_still, motion_warnings
+from birdmb.studies.flight_regime import flight_regime, regime_warnings
 from birdmb.studies.refinement import LARGEST_CHANGE, LoadChange
 from birdmb.topology import SIDES, Bird, Joint
 from birdmb.wing.outline import wing_outline
@@ -26,7 +29,14 @@ _ROUND_OFF = 1e-9  # m
 
 def bird_warnings(bird: Bird) -> list[str]:
     """One sentence for each thing to beware of."""
-    each = (_on_surroundings(bird), _on_joints(bird), _on_hinges(bird), _on_wing(bird))
+    each = (
+        _on_surroundings(bird),
+        _on_joints(bird),
+        motion_warnings(bird),
+        _on_hinges(bird),
+        _on_wing(bird),
+        _on_regime(bird),
+    )
     # Both wings may give the same cause.
     return list(dict.fromkeys(itertools.chain.from_iterable(each)))
 
@@ -39,8 +49,8 @@ def _on_surroundings(bird: Bird) -> Iterator[str]:
 
 
 def _on_joints(bird: Bird) -> Iterator[str]:
-    if all(joint.on(side).amplitude == 0 for joint in bird.joints for side in SIDES):
-        yield "no joint has an amplitude: the bird glides, and its limit cycle is a steady flight."
+    if is_still(bird):
+        yield "no joint's driver moves: the bird glides, and its limit cycle is a steady flight."
     for joint in bird.joints:
         if joint.mode == "compliant":
             for name, free in oscillations_of(bird, joint).items():
@@ -88,6 +98,11 @@ def _on_wing(bird: Bird) -> Iterator[str]:
             yield f"no flight with the wings as driven. {error}"
             return
         yield from _on_overlap(bird, model, phases)
+
+
+def _on_regime(bird: Bird) -> Iterator[str]:
+    with suppress(StateError):  # of which `_on_wing` tells
+        yield from regime_warnings(flight_regime(bird))
 
 
 def _on_overlap(bird: Bird, model: RigidModel, phases: FloatArray) -> Iterator[str]:
