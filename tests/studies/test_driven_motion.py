@@ -53,10 +53,10 @@ def test_a_ripple_of_a_high_harmonic_is_rough(plate, monkeypatch):
     assert list(motion_warnings(plate)) == []
     orders = {1: AMPLITUDE, 30: AMPLITUDE / 50}
 
-    def with_ripple(wing, times):
-        angles, rates, accelerations = np.zeros((3, times.size, wing.amplitude.size))
+    def with_ripple(_, times):
+        angles, rates, accelerations = np.zeros((3, times.size, len(plate.angle_names)))
         for order, amplitude in orders.items():
-            omega = order * wing.angular_frequency
+            omega = order * 2 * np.pi * plate.gait.frequency
             angles[:, 1] += amplitude * np.sin(omega * times)
             accelerations[:, 1] -= omega**2 * amplitude * np.sin(omega * times)
         return angles, rates, accelerations
