@@ -7,7 +7,7 @@ import pytest
 
 from birdmb.studies.bird_warnings import bird_warnings, load_warnings
 from birdmb.studies.refinement import LoadChange
-from birdmb.topology import Bird
+from birdmb.topology import Bird, load_bird
 
 from ..cli.pigeon import PIGEON
 
@@ -115,6 +115,6 @@ def test_each_side_has_its_own_motion(ibis):
 
 
 def test_a_wing_of_sections_that_crosses_the_plane_is_told_by_its_section():
-    gull = birdmb.load_bird("gull_glider").with_values({"shoulder.sweep.offset_deg": -40.0})
+    gull = load_bird("gull_glider").with_values({"shoulder.sweep.offset_deg": -40.0})
     (warning,) = [text for text in bird_warnings(gull) if "across the plane" in text]
     assert warning.startswith("the trailing end of section root reaches ")
