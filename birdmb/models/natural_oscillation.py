@@ -39,8 +39,8 @@ class NaturalOscillation:
 
 
 def joint_oscillation(bird: Bird, joint: Joint) -> NaturalOscillation:
-    """Stiffness, damping and carried inertia of a compliant joint, drivers at their offsets."""
-    angles = np.array([j.offset for j in bird.joints])
+    """Stiffness, damping and carried inertia of a compliant joint, drivers at their means."""
+    angles = np.array([j.driver.mean for j in bird.joints])
     wing = wing_arrays(bird)
     chain = joint_chain(wing, angles)
     number = bird.joint_names.index(joint.name)

@@ -2,6 +2,7 @@
 
 from birdmb.topology.airframe import Apex, Drag, Tail
 from birdmb.topology.bird import Bird, Segments
+from birdmb.topology.drivers import Driver, Harmonic
 from birdmb.topology.joints import SIDES, Joint, JointSide
 from birdmb.topology.loading import load_bird
 from birdmb.topology.parts import (
@@ -18,6 +19,7 @@ from birdmb.topology.parts import (
     Segment,
     Wing,
 )
+from birdmb.topology.samples import DriverFit
 from birdmb.topology.values import parse_assignment
 
 __all__ = [
@@ -31,8 +33,11 @@ __all__ = [
     "Bone",
     "Discretisation",
     "Drag",
+    "Driver",
+    "DriverFit",
     "Feather",
     "Gait",
+    "Harmonic",
     "Hinge",
     "Joint",
     "JointSide",

@@ -59,11 +59,16 @@ def _walk(part: Part, prefix: str, place: Location) -> Iterator[tuple[str, Locat
         elif isinstance(part, Joint) and key in SIDES:
             yield name, here
             yield from _walk(child or JointSide(), f"{name}.", here)
+        elif key == "harmonics":
+            yield name, here
+            for i, harmonic in enumerate(child or ()):
+                yield from _walk(harmonic, f"{name}.{harmonic.order}.", (*here, i))
         elif isinstance(child, Part):
             if type(part).model_fields[key].default is None:  # may be taken off as a whole
                 yield name, here
             yield from _walk(child, f"{name}.", here)
-        elif key != "name" or not place:  # a joint or feather is not renamed: names lead to it
+        # What names lead to, as a joint or a harmonic, is not renamed.
+        elif key not in ("name", "order") or not place:
             yield name, here
         if key in part.angles:
             yield f"{name}_deg", (*place, f"{key}_deg")
@@ -96,11 +101,18 @@ def value_at(document: Mapping[str, Any], place: Location) -> Any:
     table: Any = document
     for part in parents:
         table = {**table, **table.get(part, {})} if part in SIDES else table[part]
-    if key in SIDES and key not in table:
-        return None
     if key in table:
         return table[key]
-    return math.degrees(table[_other_unit(key)])
+    other = _other_unit(key)
+    if other in table:
+        return _in_degrees(table[other])
+    return Joint.model_fields[str(key).removesuffix("_deg")].default
+
+
+def _in_degrees(angle: Any) -> Any:
+    if isinstance(angle, list | tuple):
+        return tuple(map(math.degrees, angle))
+    return None if angle is None else math.degrees(angle)
 
 
 def of_a_side(place: Location) -> bool:

@@ -64,6 +64,17 @@ def _table(part: Part) -> dict[str, Any]:
     return table
 
 
-def _angle(key: str, value: float) -> dict[str, float]:
-    degrees = float(f"{math.degrees(value):.{_DIGITS}g}")
-    return {f"{key}_deg": degrees} if math.radians(degrees) == value else {key: value}
+def _angle(key: str, value: float | tuple[float, ...]) -> dict[str, float | list[float]]:
+    if isinstance(value, tuple):
+        each = [_degrees(angle) for angle in value]
+        if all(degrees is not None for degrees in each):
+            return {f"{key}_deg": [degrees for degrees in each if degrees is not None]}
+        return {key: list(value)}
+    degrees = _degrees(value)
+    return {key: value} if degrees is None else {f"{key}_deg": degrees}
+
+
+def _degrees(angle: float) -> float | None:
+    """An angle in degrees, of few digits; None where these are not exactly the angle."""
+    degrees = float(f"{math.degrees(angle):.{_DIGITS}g}")
+    return degrees if math.radians(degrees) == angle else None

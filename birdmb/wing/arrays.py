@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from birdmb._typing import BoolArray, FloatArray, IntArray
-from birdmb.topology import BONES, Bird
+from birdmb.topology import BONES, Bird, Driver
 
 
 class WingArrays(NamedTuple):
@@ -30,10 +30,10 @@ class WingArrays(NamedTuple):
     feather_share: FloatArray  # (F, J) of each joint's angle that the feather follows
     feather_hinge: IntArray  # (F,) which of the A angles turns the feather on its hinge, -1: none
     square_tip: bool  # the wing ends in a tip edge, not in a point
-    offset: FloatArray  # (A,) drivers: offset + amplitude sin(2 pi f t + phase)
-    amplitude: FloatArray
-    phase: FloatArray
-    angular_frequency: float
+    offset: FloatArray  # (A,) drivers: their means
+    cosine: FloatArray  # (A, K) and their factors of cos(k w t), k = 1 to K, w = 2 pi f
+    sine: FloatArray  # (A, K) and of sin(k w t)
+    angular_frequency: float  # w
 
 
 class JointArrays(NamedTuple):
@@ -63,7 +63,10 @@ def wing_arrays(bird: Bird) -> WingArrays:
     """Arrays of a bird's right wing, in the order of its joint chain and feather list."""
     joints, feathers, angles = bird.joints, bird.feathers, bird.angle_names
     rest = [feather.hinge.rest for feather in feathers if feather.hinge]
-    still = [0.0] * len(rest)
+    drivers = [joint.driver for joint in joints] + [Driver(angle) for angle in rest]
+    series = np.zeros((2, len(drivers), max([1, *(len(driver.cosine) for driver in drivers)])))
+    for i, driver in enumerate(drivers):
+        series[:, i, : len(driver.cosine)] = driver.cosine, driver.sine
     return WingArrays(
         root=np.array([bird.wing.root.x, bird.wing.root.y, bird.wing.root.z]),
         half_thickness=bird.wing.half_thickness,
@@ -80,9 +83,9 @@ def wing_arrays(bird: Bird) -> WingArrays:
             [angles.index(f.hinge_name) if f.hinge else -1 for f in feathers], dtype=np.int64
         ),
         square_tip=_has_square_tip(bird),
-        offset=np.array([joint.offset for joint in joints] + rest),
-        amplitude=np.array([joint.amplitude for joint in joints] + still),
-        phase=np.array([joint.phase for joint in joints] + still),
+        offset=np.array([driver.mean for driver in drivers]),
+        cosine=series[0],
+        sine=series[1],
         angular_frequency=2.0 * np.pi * bird.gait.frequency,
     )
 
