@@ -16,12 +16,17 @@ from birdmb.models.natural_oscillation import (
     oscillations_of,
 )
 from birdmb.models.rigid import RigidModel
+from birdmb.models.wing_model import STEPS_PER_BEAT
 from birdmb.studies.refinement import LARGEST_CHANGE, LoadChange
 from birdmb.topology import SIDES, Bird, Joint
 from birdmb.wing.outline import wing_outline
 
 _PHASES = 24
 _ROUND_OFF = 1e-9  # m
+# Of a harmonic: on fewer steps the error of a beat is many times that of a sine's, and collocation
+# took so many nodes where the harmonic had a tenth of the beat's rate.
+_STEPS_PER_PERIOD, _NODES_PER_PERIOD = 10, 8
+_SIGNIFICANT = 0.05  # rate of a harmonic, of that of the largest
 
 
 def bird_warnings(bird: Bird) -> list[str]:
@@ -39,14 +44,27 @@ def _on_surroundings(bird: Bird) -> Iterator[str]:
 
 
 def _on_joints(bird: Bird) -> Iterator[str]:
-    if all(joint.on(side).amplitude == 0 for joint in bird.joints for side in SIDES):
-        yield "no joint has an amplitude: the bird glides, and its limit cycle is a steady flight."
+    if all(joint.on(side).driver.is_still for joint in bird.joints for side in SIDES):
+        yield "no joint is driven: the bird glides, and its limit cycle is a steady flight."
     for joint in bird.joints:
+        yield from _on_roughness(joint)
         if joint.mode == "compliant":
             for name, free in oscillations_of(bird, joint).items():
                 yield from _on_compliant(bird, joint, name, free)
         elif joint.stiffness is not None or joint.damping is not None:
             yield f"{joint.name} is prescribed: its stiffness and damping are not used."
+
+
+def _on_roughness(joint: Joint) -> Iterator[str]:
+    orders = [joint.on(side).driver.highest_harmonic(_SIGNIFICANT) for side in SIDES]
+    if (order := max(orders)) * _STEPS_PER_PERIOD > STEPS_PER_BEAT:
+        steps, nodes = _STEPS_PER_PERIOD * order, _NODES_PER_PERIOD * order
+        yield (
+            f"the driver of {joint.name} moves in harmonics up to order {order} of the beat, rough "
+            f"for the usual {STEPS_PER_BEAT} time steps a beat: let models take "
+            f"steps_per_beat={steps} or more, expect collocation to need about {nodes} nodes, or "
+            "keep fewer harmonics."
+        )
 
 
 def _on_compliant(bird: Bird, joint: Joint, name: str, free: NaturalOscillation) -> Iterator[str]:

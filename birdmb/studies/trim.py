@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
@@ -89,7 +90,8 @@ def trim_flight(
     Args:
         bird: the bird.
         parameters: bounds (lowest, highest) by dotted name; one parameter, or two with `speed`. By
-            default the offset of forearm.roll, and the flap amplitude.
+            default the offset of forearm.roll, and the flap amplitude, or its gain where samples
+            give the flap.
         climb_rate: wanted mean climb rate, m/s, upwards positive; 0 is level flight.
         speed: wanted mean speed (`FlightCycle.mean_speed`), m/s.
         model: makes the model of a bird, as `RigidModel` and `MultibodyModel` do.
@@ -104,7 +106,7 @@ def trim_flight(
     """
     targets = {"climb_rate": climb_rate} | ({} if speed is None else {"speed": speed})
     if parameters is None:
-        parameters = dict(list(DEFAULT_PARAMETERS.items())[: len(targets)])
+        parameters = dict(list(_default_parameters(bird).items())[: len(targets)])
     if len(parameters) != len(targets):
         raise ArgumentError(
             f"{len(targets)} target(s) ({', '.join(targets)}) need as many parameters, "
@@ -121,6 +123,18 @@ def trim_flight(
         if not trials.succeeded:
             way(trials)
     return _result(trials, from_guess)
+
+
+def _default_parameters(bird: Bird) -> dict[str, tuple[float, float]]:
+    """`DEFAULT_PARAMETERS`; the gain that swings as far where the flap has samples."""
+    parameters = dict(DEFAULT_PARAMETERS)
+    for flap in bird.joints:
+        low, high = flap.driver.range
+        if flap.name == "shoulder.flap" and flap.samples is not None and low < high:
+            swing = math.degrees(high - low) / 2.0 / flap.gain
+            least, most = parameters.pop(f"{flap.name}.amplitude_deg")
+            parameters[f"{flap.name}.gain"] = (least / swing, most / swing)
+    return parameters
 
 
 def _from_guess(search: TrimSearch, guess: TrimGuess | None) -> bool:

@@ -52,6 +52,14 @@ def split_side(name: str) -> tuple[str, str]:
     return (owner, side) if side in SIDES and "." in owner else (name, "")
 
 
+def _without_file(data: Any) -> Any:
+    if isinstance(data, Mapping) and "file" in data:
+        raise problem(
+            "is a key of topology files, which load_bird reads; give samples instead", "file"
+        )
+    return data
+
+
 class JointSide(Part):
     """Driver, spring and damper of a joint on one side, where they are not those of both.
 
@@ -104,7 +112,7 @@ class JointSide(Part):
                     "beside left and right",
                     key,
                 )
-        return data
+        return _without_file(data)
 
     @property
     def own(self) -> dict[str, Any]:
@@ -174,6 +182,11 @@ class Joint(Part):
     left: JointSide | None = Field(
         default=None, description="values of the left wing's joint alone, a table"
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _samples_are_read(cls, data: Any) -> Any:
+        return _without_file(data)
 
     @model_serializer(mode="wrap")
     def _without_empty(self, dump: SerializerFunctionWrapHandler) -> dict[str, Any]:

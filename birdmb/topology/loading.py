@@ -8,13 +8,14 @@ from pathlib import Path
 
 from birdmb.errors import TopologyError
 from birdmb.topology.bird import Bird
+from birdmb.topology.driver_files import with_driver_files
 from birdmb.topology.messages import validated
 
 _LARGEST = 1_000_000  # bytes
 
 
 def load_bird(path: str | PathLike[str]) -> Bird:
-    """Read and validate a topology file (TOML).
+    """Read and validate a topology file (TOML), with the samples of drivers that it names.
 
     Raises `TopologyError`, one sentence naming file, key, value and what would be right, if the
     file cannot be read or does not describe a possible bird.
@@ -40,4 +41,4 @@ def load_bird(path: str | PathLike[str]) -> Bird:
             f"{origin}: cannot be read as TOML; a number has thousands of digits, or brackets are "
             "nested too deep"
         ) from error
-    return validated(Bird, document, origin)
+    return validated(Bird, with_driver_files(document, Path(path)), origin)
