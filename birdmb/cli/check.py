@@ -153,7 +153,7 @@ def _joints_by_side(bird: Bird) -> list[tuple[str, Joint]]:
 
 def _drivers(bird: Bird) -> Table:
     table = table_of(
-        "* Other drivers than sines, degrees; residuals of samples, error of the series",
+        "* Drivers other than sines, degrees; residuals, error",
         "joint", "from", "to", "harmonics", "rms", "largest", "error",
         numbers=(1, 2, 3, 4, 5, 6),
     )  # fmt: skip

@@ -34,7 +34,7 @@ def with_driver_files(document: dict[str, Any], topology: Path) -> dict[str, Any
     """
     for wanted in _wanted(document, str(topology)):
         where, named = wanted.where, wanted.table.pop("file")
-        if not isinstance(named, str) or not named:
+        if not (isinstance(named, str) and named and named.isprintable()):
             raise TopologyError(f"{where}: must be the path of a CSV file, not {shown(named)}")
         for key in ("samples", "samples_deg", "sample_phases"):
             if key in wanted.table:
