@@ -1,8 +1,8 @@
 """A flapping wing against a measurement: `python benchmarks/flapping_robot.py`.
 
 Lift of the rigid wings of D. Yeo, E. M. Atkins and W. Shyy's robot in a wind tunnel (AIAA 2011),
-from nine pressure traces, against the quasi-steady loads of `topologies/flapping_robot.toml` with its
-shoulder held to the measured flap angle and its body at rest in a stream of 2.9 m/s.
+from nine pressure traces, against the quasi-steady loads of `topologies/flapping_robot.toml` with
+its shoulder held to the measured flap angle and its body at rest in a stream of 2.9 m/s.
 """
 
 import numpy as np
