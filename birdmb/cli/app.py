@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from birdmb.cli.bird_commands import commands as bird_commands
 from birdmb.cli.drawing import ignore_settings
 from birdmb.cli.flight_commands import commands as flight_commands
 from birdmb.cli.options import (
@@ -321,17 +322,14 @@ def schema(
     epilog="Exit status: 0; 2 wrong option; 130 interrupted. Takes a minute or two.\n\n"
     "Example: birdmb validate"
 )
-def validate(
-    topologies: Annotated[
-        Path, typer.Option(metavar="DIR", help="Directory of the shipped topology files.")
-    ] = Path("topologies"),
-) -> None:
+def validate() -> None:
     """Print what the thesis published against what is computed here, with the command behind it."""
     with reported(as_json=False):
         from birdmb.cli.validate import run  # noqa: PLC0415
 
-        run(topologies)
+        run()
 
 
 app.add_typer(study_commands)
 app.add_typer(flight_commands)
+app.add_typer(bird_commands)

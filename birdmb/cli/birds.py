@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from pathlib import Path
 
 from birdmb.cli.outcome import InputError
 from birdmb.topology import Bird, load_bird, parse_assignment
@@ -11,7 +10,7 @@ from birdmb.topology.unused import SPRING, own_names, unused_spring
 
 
 def requested_bird(
-    topology: Path, assignments: Sequence[str], varied: Mapping[str, object] | None = None
+    topology: str, assignments: Sequence[str], varied: Mapping[str, object] | None = None
 ) -> Bird:
     """The bird of a topology file with the values of `NAME=VALUE` assignments, in any order.
 

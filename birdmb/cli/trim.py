@@ -15,11 +15,12 @@ from birdmb.cli.results import taken_as_prescribed, verdict_sentence
 from birdmb.studies.trim import trim_flight
 from birdmb.studies.validity import assess_validity
 from birdmb.topology import Bird
+from birdmb.topology.shipped import topology_file
 
 
 def run(
     bird: Bird,
-    topology: Path,
+    topology: str,
     assignments: Sequence[str],
     parameters: Mapping[str, tuple[float, float]] | None,
     climb_rate: float,
@@ -68,7 +69,7 @@ def run(
         about += [f"Set before: {text}." for text in kept]
         about += [f"Found with {text}, which is not kept." for text in passing]
         trimmed = requested_bird(topology, kept).with_values(found.values)
-        typer.echo(f"wrote {trimmed.save(out, like=topology, about=about)}")
+        typer.echo(f"wrote {trimmed.save(out, like=topology_file(topology), about=about)}")
         if passing:
             typer.echo(f"  with its own discretisation, not the {passing[-1]} of this search")
 

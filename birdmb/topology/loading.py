@@ -6,14 +6,18 @@ from os import PathLike
 
 from birdmb.topology.bird import Bird
 from birdmb.topology.documents import read_document
+from birdmb.topology.driver_files import with_driver_files
 from birdmb.topology.messages import validated
+from birdmb.topology.shipped import topology_file
 
 
-def load_bird(path: str | PathLike[str]) -> Bird:
-    """Read and validate a topology file (TOML).
+def load_bird(bird: str | PathLike[str]) -> Bird:
+    """Read and validate a topology file (TOML), or a bird of the package by its name.
 
-    Raises `TopologyError`, one sentence naming file, key, value and what would be right, if the
-    file cannot be read or does not describe a possible bird.
+    `load_bird("ibis")` is the ibis, wherever birdmb is installed (`bird_names` lists all), if there
+    is no file of that name. Raises `TopologyError`, one sentence naming file, key, value and what
+    would be right, if the file cannot be read or does not describe a possible bird.
     """
+    path = topology_file(bird)
     _, document = read_document(path)
-    return validated(Bird, document, str(path))
+    return validated(Bird, with_driver_files(document, path), str(bird))

@@ -14,6 +14,7 @@ from birdmb.errors import TopologyError
 from birdmb.files import write_whole
 from birdmb.text import on_one_line
 from birdmb.topology.documents import read_document
+from birdmb.topology.driver_files import with_driver_files
 from birdmb.topology.editing import edit
 from birdmb.topology.messages import validated
 from birdmb.topology.parts import Part
@@ -44,8 +45,10 @@ def edited_text(bird: Part, like: str | PathLike[str], about: Sequence[str] = ()
         TopologyError: the file is none of a bird, or its text cannot be kept with these values.
     """
     text, values = read_document(like)
-    before = validated(type(bird), values, str(like))
+    before = validated(type(bird), with_driver_files(values, Path(like)), str(like))
     document = tomlkit.parse(text)
+    # The samples themselves are written: what a path leads to from the new file is not known.
+    with_driver_files(document, Path(like))
     edit(document, table_of(before), table_of(bird))
     edited = tomlkit.dumps(document)
     if not _is_read_as(bird, edited):

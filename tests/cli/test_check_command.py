@@ -13,6 +13,11 @@ def test_what_the_bird_is(run):
     for row in (
         "mass of the whole bird 1.26 kg",
         "span, joints at zero 1.420 m",
+        "aspect ratio, joints at zero 10.7",
+        "speed U at lift coefficient 0.5 14.7 m/s",
+        "Reynolds number of the mean chord at U 1.3e+05",
+        "reduced frequency at U 0.11",
+        "Strouhal number at U 0.22",
         "elements per wing 32 orthogonal",
         "humerus 0.134 0.01",
         "shoulder.flap humerus compliant 0.00 42.00 180.00",
@@ -41,6 +46,26 @@ def test_hinges_of_feathers(run):
     assert "feathers.5.hinge has stiffness 0: only the air holds" in loose.stdout
     slow = run("check", HINGED, "--set", "feathers.5.hinge.stiffness=0.0066")
     assert "feathers.5.hinge swings by itself at 3.99 Hz, close to" in " ".join(slow.stdout.split())
+
+
+def test_drivers_that_are_no_sine(run):
+    """Of 16 samples of a triangle one harmonic has 1/32 / sin(pi/16)^2 of the height, 82.11 deg.
+
+    It leaves 17.89 deg at the corners. Of the triangle itself it leaves 18.9, as 1 - 8/pi^2.
+    """
+    result = run(
+        "check", IBIS, "--set", "shoulder.flap.downstroke_fraction=0.4",
+        "--set", "elbow.sweep.amplitude=0", "--set", "elbow.sweep.phase=0",
+        "--set", "elbow.sweep.samples_deg=[0, 25, 50, 75, 100, 75, 50, 25, 0, -25, -50, -75, -100,"
+        " -75, -50, -25]", "--set", "elbow.sweep.sample_harmonics=1",
+    )  # fmt: skip
+    assert result.exit_code == 0, result.stderr
+    rows = [" ".join(line.split()) for line in result.stdout.splitlines()]
+    assert "shoulder.flap humerus prescribed 0.00 * *" in rows
+    assert "shoulder.flap -42.00 42.00 12" in rows
+    assert "elbow.sweep -52.11 112.11 1 8.2 18 26" in rows
+    tables = result.stdout.partition("\nWarning: ")[0]
+    assert max(map(len, tables.splitlines())) <= 80
 
 
 def test_warnings_are_printed_and_no_error(run):
