@@ -85,3 +85,114 @@ def scale(
         from birdmb.cli.scale import run  # noqa: PLC0415
 
         run(mass, span, frequency, like, out)
+
+
+@commands.command(
+    epilog=(
+        "Exit status: 0 fitted; 2 a table that tells no gait, or a wrong topology or option; 130 "
+        "interrupted.\n\n"
+        "Example: birdmb kinematics points.csv --like pigeon --frame forward-left-up -o mine.toml"
+    )
+)
+def kinematics(
+    file: Annotated[
+        Path,
+        typer.Argument(
+            help="Table of points or joint angles over time (CSV, NetCDF or C3D), see "
+            "docs/kinematics.md."
+        ),
+    ],
+    like: Annotated[
+        str,
+        typer.Option(
+            metavar="BIRD", help="The bird of the package, or topology file, whose joints move so."
+        ),
+    ],
+    frame: Annotated[
+        str | None,
+        typer.Option(
+            metavar="AXES",
+            help="Where the axes x, y and z of points point to: body (forward, right, down), "
+            "forward-left-up and the like, or body axes as in --frame=+x-y-z. Not needed beside "
+            "markers on the body.",
+        ),
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out",
+            "-o",
+            metavar="FILE",
+            help="Write the topology with the fitted gait, its comments kept.",
+        ),
+    ] = None,
+    rate: Annotated[
+        float | None,
+        typer.Option(
+            metavar="HZ",
+            help="Frames per second, where there is no column time.",
+            callback=number("--rate", 1e-3, 1e6, "no camera is as fast"),
+        ),
+    ] = None,
+    unit: Annotated[
+        str | None,
+        typer.Option(
+            metavar="UNIT", help="Of the points: m, cm or mm.", show_default="the file's, or m"
+        ),
+    ] = None,
+    markers: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="Places of markers whose names do not tell it (TOML), as "
+            '`p1 = { feather = "1" }` or `back = { body = [0, 0, -0.03] }`.',
+        ),
+    ] = None,
+    frequency: Annotated[
+        float | None,
+        typer.Option(
+            metavar="HZ",
+            help="Wingbeat frequency, if it is known, as of one averaged beat.",
+            show_default="found",
+            callback=number("--frequency", 1e-6, 1e6, "mosquitoes have 800"),
+        ),
+    ] = None,
+    harmonics: Annotated[
+        int | None,
+        typer.Option(
+            min=1, metavar="N", help="Harmonics of each joint.", show_default="all significant"
+        ),
+    ] = None,
+    lengths: Annotated[
+        bool, typer.Option("--lengths", help="Give segments their measured lengths.")
+    ] = False,
+    figure: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Draw measured beside fitted into this file (PNG)."),
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Fit the gait of a bird to a measured flight: points, or joint angles, over some beats.
+
+    Says how sure offsets, amplitudes and phases are, how far each marker is from the fitted wing,
+    and which joints the data do not tell: these keep the topology's own motion.
+    """
+    with reported(as_json=json):
+        from birdmb.cli.kinematics import run  # noqa: PLC0415
+
+        run(
+            file,
+            like,
+            out=out,
+            figure=figure,
+            as_json=json,
+            options={
+                "frame": frame,
+                "rate": rate,
+                "unit": unit,
+                "markers": markers,
+                "frequency": frequency,
+                "harmonics": harmonics,
+                "lengths": lengths,
+            },
+        )

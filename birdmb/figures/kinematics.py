@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
+from matplotlib.lines import Line2D
 
 from birdmb.figures.style import DRIVER, LINE
 from birdmb.kinematics import KinematicsFit
@@ -32,8 +33,11 @@ def plot_kinematics(fit: KinematicsFit) -> Figure:
     parts = figure.subfigures(len(groups), 1, squeeze=False, height_ratios=rows)[:, 0]
     for name, axes in zip(groups[0], _panels(parts[0], rows[0], len(groups[0])), strict=True):
         _draw_joint(axes, fit, name)
+    _legend(parts[0])
     for name, axes in zip(points, _panels(parts[-1], rows[-1], len(points)), strict=False):
         _draw_marker(axes, fit, name)
+    if points:
+        _legend(parts[-1])
     beats = f"{fit.beats} beats" if fit.beats != 1 else "1 beat"
     figure.suptitle(
         f"{in_figure(fit.bird.name)}: {beats} at {fit.frequency:.4g} Hz, measured (dots) and "
@@ -57,9 +61,21 @@ def _panels(figure: SubFigure, rows: int, count: int) -> list[Axes]:
     return panels[:count]
 
 
+def _legend(figure: SubFigure) -> None:
+    """One for all panels, of which the first shows all that there is."""
+    lines: dict[str, Line2D] = {}
+    for axes in figure.axes:
+        lines |= {str(line.get_label()): line for line in axes.get_lines()}
+    named = {label: line for label, line in lines.items() if not label.startswith("_")}
+    figure.legend(
+        [*named.values()], [*named], loc="outside upper right", ncols=3, frameon=False,
+        fontsize="small",
+    )  # fmt: skip
+
+
 def _draw_joint(axes: Axes, fit: KinematicsFit, name: str) -> None:
     phases = np.linspace(0.0, 1.0, _INSTANTS)
-    own = np.degrees(fit.angles_before(name, phases))
+    own = np.degrees(fit.like.joint(name).driver.at(phases))
     axes.plot(phases, own, "--", color=DRIVER, lw=1.0, label="before")
     if name in fit.markers:
         measured = np.degrees(fit.measured[:, fit.column(name)])
@@ -73,7 +89,6 @@ def _draw_joint(axes: Axes, fit: KinematicsFit, name: str) -> None:
     else:
         axes.text(0.5, 0.9, "not told by the data", transform=axes.transAxes, ha="center")
     axes.set_ylabel(f"{in_figure(name).replace('.', chr(10))} (°)")
-    axes.legend(frameon=False, fontsize="x-small", loc="best")
 
 
 def _draw_marker(axes: Axes, fit: KinematicsFit, name: str) -> None:
@@ -88,4 +103,3 @@ def _draw_marker(axes: Axes, fit: KinematicsFit, name: str) -> None:
     residual = 1e3 * fit.markers[name].residual
     axes.set_ylabel(f"{in_figure(name)} (mm)")
     axes.set_title(f"residual {residual:.3g} mm", fontsize="small", loc="right", pad=2)
-    axes.legend(frameon=False, fontsize="x-small", loc="best")

@@ -14,7 +14,7 @@ from birdmb.kinematics.frames import all_frames, to_body_axes
 from birdmb.kinematics.observations import Observations
 from birdmb.kinematics.poses import PHASES, solve_poses
 
-_MISFIT = 0.03  # of the wing's reach
+_MISFIT = 0.01  # of the wing's reach
 _HOPELESS = 0.12
 _NOISES = 5.0
 _MUCH_BETTER = 1.0 / 3.0
@@ -53,9 +53,9 @@ def check_axes(
     if given.misfit <= allowed and given.distance <= _UNUSUAL:
         return ()
     own = to_body_axes(frame)
-    others = _tried(
-        seen, frame, [f for f in all_frames() if (to_body_axes(f) != own).any()], some, told
-    )
+    frames = [one for one in all_frames() if (to_body_axes(one) != own).any()]
+    # Markers on the body turn with the axes: these cannot be told from the wing.
+    others = _tried(seen, frame, frames, some, told) if seen.body_motions < 6 else []
     fitting = [
         one for one in others
         if one.misfit < max(_MUCH_BETTER * given.misfit, allowed) and one.distance < _STRANGE

@@ -16,6 +16,7 @@ _PERIODIC = 0.5  # part of the motion that a beat must explain
 _WORSE = 0.02  # part that a shorter beat may leave out and still be taken
 _FINER = 4  # candidates per resolved frequency
 _MULTIPLES = (1.0 / 3.0, 0.5, 1.0, 2.0)
+_STILL = 1e-6
 _LEAST_SAMPLES = 0.3  # of the frames, in a signal that tells the frequency
 
 
@@ -41,7 +42,7 @@ def most_harmonics(phases: FloatArray) -> int:
 
 
 def beat_frequency(times: FloatArray, values: FloatArray, origin: str) -> float:
-    """The frequency (Hz) at which signals (N, R), with NaN in gaps, repeat themselves.
+    """The frequency (Hz) at which signals (N, R) of order 1, NaN in gaps, repeat themselves.
 
     A peak of the spectrum, refined by least squares of a Fourier series to the samples; of
     frequencies that explain the motion as well, the highest.
@@ -79,7 +80,7 @@ def _moving_most(values: FloatArray) -> FloatArray:
     kept = values[:, enough]
     spread = np.nanstd(kept, axis=0) if kept.size else np.empty(0)
     moving = np.argsort(-spread)[:_SIGNALS]
-    return kept[:, moving[spread[moving] > 1e-6 * max(spread, default=0.0)]]
+    return kept[:, moving[spread[moving] > _STILL]]
 
 
 def _spectral_peak(times: FloatArray, signals: FloatArray) -> float:

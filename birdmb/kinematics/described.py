@@ -9,13 +9,15 @@ from pathlib import Path
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.kinematics.errorbars import ErrorBars, error_bars, phase_gradient, polar
+from birdmb.kinematics.errorbars import ErrorBars, amplitude_gradient, error_bars, phase_gradient
 from birdmb.kinematics.observations import Observations
 from birdmb.kinematics.reference import lead_of, reference_joint
 from birdmb.kinematics.result import JointMotion, KinematicsFit, MarkerFit, bird_with_gait
-from birdmb.kinematics.series import Gait, Solved
+from birdmb.kinematics.series import Gait, Solved, marker_scatter
 from birdmb.topology import Bird
 
+_ROUND_OFF = 1e-9
+_UNKNOWN_PHASE = math.pi / math.sqrt(3.0)  # standard deviation of a phase that may be any
 _MISFIT = 3.0  # times the noise, from which on a residual is not of it alone
 
 
@@ -33,7 +35,7 @@ def described(
     gait = solved.gait
     bars = error_bars(solved, seen.times)
     reference = reference_joint(like, gait)
-    lead = lead_of(seen, like, gait)
+    lead = lead_of(like, gait)
     names = [like.joint_names[j] for j in gait.joints]
     own = gait.joints.index(reference)
     joints = {
@@ -48,7 +50,7 @@ def described(
         like=like,
         source=seen.origin,
         frequency=gait.frequency,
-        frequency_error=math.sqrt(max(0.0, bars.covariance[-1, -1])) / span,
+        frequency_error=bars.error(np.eye(len(bars.covariance))[-1]) / span,
         joints=joints,
         undetermined=tuple(name for name in like.joint_names if name not in names),
         reference=like.joint_names[reference],
@@ -73,44 +75,53 @@ def _first_beat(gait: Gait, lead: float, begin: float) -> float:
 def _motion(gait: Gait, bars: ErrorBars, row: int, lead: float, reference: int) -> JointMotion:
     """A joint's driver, its phases from t = 0, with the errors that those of the reference make."""
     rows, places = gait.unknowns
-    place = {(int(r), int(p)): i for i, (r, p) in enumerate(zip(rows, places, strict=True))}
-    by_reference = np.zeros(len(bars.covariance))
-    first = [place[reference, 1], place[reference, 2]]
-    by_reference[first] = phase_gradient(*gait.coefficients[reference, 1:3])
+    at = {(int(r), int(p)): i for i, (r, p) in enumerate(zip(rows, places, strict=True))}
+    unit = np.eye(len(bars.covariance))
+    by_reference = (
+        phase_gradient(*gait.coefficients[reference, 1:3])
+        @ unit[[at[reference, 1], at[reference, 2]]]
+    )
     found = []
     for order in range(1, gait.orders[row] + 1):
-        pair = [place[row, 2 * order - 1], place[row, 2 * order]]
-        cosine, sine = gait.coefficients[row, 2 * order - 1 : 2 * order + 1]
-        size, phase, error, most = polar(cosine, sine, bars.covariance[np.ix_(pair, pair)])
-        gradient = -order * by_reference
-        gradient[pair] += phase_gradient(cosine, sine)
-        turned = math.sqrt(max(0.0, float(gradient @ bars.covariance @ gradient)))
-        phase = math.remainder(phase - 2.0 * math.pi * order * lead, 2.0 * math.pi)
-        found.append((size, phase, error, min(turned, math.pi / math.sqrt(3.0)) if size else most))
+        columns = (2 * order - 1, 2 * order)
+        own = unit[[at[row, column] for column in columns]]
+        cosine, sine = gait.coefficients[row, columns]
+        size = math.hypot(cosine, sine)
+        phase = math.atan2(cosine, sine) - 2.0 * math.pi * order * lead
+        turned = _UNKNOWN_PHASE
+        if size > 0.0:
+            gradient = phase_gradient(cosine, sine) @ own - order * by_reference
+            turned = min(turned, bars.error(gradient))
+        error = bars.error(amplitude_gradient(cosine, sine) @ own)
+        found.append((size, _wrapped(phase), error, turned))
     sizes, phases, errors, turns = np.array(found).T
-    offset = place[row, 0]
     return JointMotion(
         offset=float(gait.coefficients[row, 0]),
         amplitudes=sizes,
         phases=phases,
-        offset_error=math.sqrt(max(0.0, bars.covariance[offset, offset])),
+        offset_error=bars.error(unit[at[row, 0]]),
         amplitude_errors=errors,
         phase_errors=turns,
         scatter=float(bars.scatter[row]),
     )
 
 
+def _wrapped(phase: float) -> float:
+    """A phase from -pi, excluded, to pi; what is next to -pi by round-off is pi."""
+    inside = math.remainder(phase, 2.0 * math.pi)
+    return inside + 2.0 * math.pi if inside < -math.pi + _ROUND_OFF else inside
+
+
 def _markers(
     seen: Observations, solved: Solved, missing: Mapping[str, int]
 ) -> dict[str, MarkerFit]:
-    there = np.isfinite(seen.values)
+    there, scatter = np.isfinite(seen.values), marker_scatter(seen, solved)
     found = {}
     for group, name in enumerate(seen.names):
         own = seen.group == group
         samples = int(there[:, own].all(axis=1).sum())
-        squares = float(np.sum(solved.residuals[:, own] ** 2))
         found[name] = MarkerFit(
-            residual=math.sqrt(squares / max(1, int(there[:, own].sum()))),
+            residual=float(scatter[group]),
             samples=samples,
             missing=missing[name],
         )

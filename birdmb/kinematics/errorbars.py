@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
+from scipy.stats import chi2
 
 from birdmb._typing import FloatArray
 from birdmb.kinematics.series import Solved
@@ -13,42 +14,63 @@ from birdmb.kinematics.series import Solved
 _FEWEST_BEATS = 2
 _LEAST_PART = 0.5  # of the samples that a beat has on average
 _LEAST_KNOWN = 1e-3  # of the mean information, which a beat's own is added to
-_UNKNOWN_PHASE = math.pi / math.sqrt(3.0)  # standard deviation of a phase that may be any
+_SURE = 0.99
 
 
-class ErrorBars(NamedTuple):
+@dataclass(frozen=True)
+class ErrorBars:
     """Errors and scatter of a gait.
 
-    The covariance is that of independent samples, enlarged for joints whose beats differ by more
-    than it allows (Birge, Phys. Rev. 40, 1932).
+    Attributes:
+        covariance: (p, p) of the unknowns, frequency times span last. That of independent samples,
+            enlarged for joints whose beats differ by more than it allows (Birge, Phys. Rev. 40,
+            1932).
+        deviations: (B, p) of the whole beats from the mean one; that of the frequency is 0.
+        scatter: (joints,) rms of the beats' angles from their mean, rad; NaN of one beat.
     """
 
-    covariance: FloatArray  # (p, p) of the unknowns, the last is frequency times span
-    scatter: FloatArray  # (joints,) rms of the beats' angles from their mean, rad; NaN of one beat
-    beats: int
+    covariance: FloatArray
+    deviations: FloatArray
+    scatter: FloatArray
+
+    @property
+    def beats(self) -> int:
+        """How many whole beats there are."""
+        return len(self.deviations)
+
+    def error(self, gradient: FloatArray) -> float:
+        """Standard error of what depends on the unknowns by a gradient (p,).
+
+        From the covariance, or from the scatter over the beats where that is significantly more.
+        """
+        stated = max(0.0, float(gradient @ self.covariance @ gradient))
+        if self.beats < _FEWEST_BEATS:
+            return math.sqrt(stated)
+        off = self.deviations @ gradient
+        freedom = self.beats - 1
+        squares = float(np.sum(off**2)) / self.beats
+        significant = squares > stated * chi2.ppf(_SURE, freedom)
+        return math.sqrt(squares / freedom if significant else stated)
 
 
 def error_bars(solved: Solved, times: FloatArray) -> ErrorBars:
     """The errors of the unknowns, and the scatter over the whole beats in `times` (N,)."""
     white = np.linalg.pinv(solved.information, hermitian=True) * solved.variance
-    gait = solved.gait
-    rows, _ = gait.unknowns
-    joints = len(gait.joints)
+    rows, _ = solved.gait.unknowns
+    joints = len(solved.gait.joints)
     deviations, variances = _of_beats(solved, times)
     factors, scatter = np.ones(joints), np.full(joints, np.nan)
     beats = len(deviations)
-    if beats >= _FEWEST_BEATS:
-        for joint in range(joints):
-            own = np.flatnonzero(rows == joint)
-            off = deviations[:, own]
-            block = variances[:, own[:, None], own]
-            misfit = float(np.sum(off * np.linalg.solve(block, off[:, :, None])[:, :, 0]))
-            freedom = (beats - 1) * own.size
-            factors[joint] = max(1.0, misfit / freedom)
-            halves = np.where(np.arange(own.size) == 0, 1.0, 0.5)
-            scatter[joint] = math.sqrt(np.sum(halves * off**2) / (beats - 1))
+    for joint in range(joints) if beats >= _FEWEST_BEATS else ():
+        own = np.flatnonzero(rows == joint)
+        off, block = deviations[:, own], variances[:, own[:, None], own]
+        misfit = float(np.sum(off * np.linalg.solve(block, off[:, :, None])[:, :, 0]))
+        factors[joint] = max(1.0, misfit / ((beats - 1) * own.size))
+        halves = np.where(np.arange(own.size) == 0, 1.0, 0.5)
+        scatter[joint] = math.sqrt(np.sum(halves * off**2) / (beats - 1))
     enlarge = np.sqrt(np.append(factors[rows], factors.max()))
-    return ErrorBars(np.asarray(white * np.outer(enlarge, enlarge)), scatter, beats)
+    covariance = np.asarray(white * np.outer(enlarge, enlarge))
+    return ErrorBars(covariance, np.pad(deviations, ((0, 0), (0, 1))), scatter)
 
 
 def _of_beats(solved: Solved, times: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -73,24 +95,16 @@ def _of_beats(solved: Solved, times: FloatArray) -> tuple[FloatArray, FloatArray
     return np.reshape(deviations, (-1, size)), np.reshape(variances, (-1, size, size))
 
 
-def polar(cosine: float, sine: float, covariance: FloatArray) -> tuple[float, float, float, float]:
-    """Amplitude and phase of a harmonic A sin(m tau + phi), and their standard errors.
+def amplitude_gradient(cosine: float, sine: float) -> FloatArray:
+    """Derivatives (2,) of the amplitude A of a harmonic by its coefficients A sin(phi), A cos(phi).
 
-    Args:
-        cosine, sine: its coefficients, A sin(phi) and A cos(phi).
-        covariance: of these (2, 2).
+    Where it has none, in one of all directions.
     """
-    amplitude, phase = math.hypot(cosine, sine), math.atan2(cosine, sine)
-    if amplitude == 0.0:
-        return 0.0, 0.0, math.sqrt(float(np.trace(covariance)) / 2.0), _UNKNOWN_PHASE
-    along = np.array([cosine, sine]) / amplitude
-    across = np.array([sine, -cosine]) / amplitude**2
-    error = math.sqrt(max(0.0, float(along @ covariance @ along)))
-    turned = math.sqrt(max(0.0, float(across @ covariance @ across)))
-    return amplitude, phase, error, min(turned, _UNKNOWN_PHASE)
+    size = math.hypot(cosine, sine)
+    return np.array([cosine, sine]) / size if size > 0.0 else np.array([1.0, 0.0])
 
 
 def phase_gradient(cosine: float, sine: float) -> FloatArray:
-    """Derivatives (2,) of the phase of a harmonic by its coefficients."""
+    """Derivatives (2,) of the phase phi of a harmonic by its coefficients."""
     square = cosine**2 + sine**2
-    return np.array([sine, -cosine]) / square if square > 0.0 else np.zeros(2)
+    return np.array([sine, -cosine]) / square if square > 0.0 else np.full(2, np.inf)

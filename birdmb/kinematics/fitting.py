@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from os import PathLike
-from pathlib import Path
 
 import numpy as np
 
@@ -22,11 +21,12 @@ from birdmb.kinematics.observing import measured_lengths, observe
 from birdmb.kinematics.orders import fit_orders
 from birdmb.kinematics.poses import PHASES, MeanBeat, mean_beat, solve_poses
 from birdmb.kinematics.reading import Measured, read_recording
-from birdmb.kinematics.reference import lead_of, reference_joint
+from birdmb.kinematics.reference import lead_of
 from birdmb.kinematics.result import KinematicsFit
 from birdmb.kinematics.series import Gait, Solved
 from birdmb.threads import one_thread
 from birdmb.topology import Bird, load_bird
+from birdmb.topology.shipped import topology_file
 
 _PASSES = 3
 _FIRST_SCATTER = 1e-2  # of typical sizes, before the residuals tell it
@@ -52,7 +52,7 @@ def fit_kinematics(
     Args:
         data: path of a table (CSV, NetCDF, C3D), a dataset, or arrays by name: `time` (N,) in s,
             markers (N, 3) or joints' angles (N,).
-        like: the bird, or its topology file, whose joints are solved for.
+        like: the bird whose joints are solved for, its topology file, or its name in the package.
         frame: where the x, y and z axes of points point to: "body", words such as
             "forward-left-up" or body axes such as "+x-y-z". Not needed beside markers on the body.
         rate: frames per second, where there is no `time`.
@@ -69,7 +69,7 @@ def fit_kinematics(
         ArgumentError: an argument that cannot be.
     """
     _check(frequency, harmonics)
-    file = None if isinstance(like, Bird) else Path(like)
+    file = None if isinstance(like, Bird) else topology_file(like)
     given = like if isinstance(like, Bird) else load_bird(like)
     if not given.is_symmetric:
         raise ArgumentError(f"{given.name}: has joints of its own on a side; one wing is fitted.")
@@ -127,17 +127,13 @@ def _start(
     if not told:
         raise KinematicsError(f"{seen.origin}: tells none of the joints of {bird.name}.")
     remarks: tuple[str, ...] = ()
-    if seen.markers.names and seen.body_motions < 6:
+    if seen.markers.names:
         noise = float(np.max(beat.noise[seen.is_point])) / seen.reach
         remarks = check_axes(seen, frame, beat.values, noise, told)
     basis = series_basis(np.arange(PHASES) / PHASES, 1)
     solved = np.linalg.lstsq(basis, angles[:, list(told)], rcond=None)[0]
     gait = Gait(told, (1,) * len(told), np.asarray(solved.T), frequency, middle, 0.0)
-    return _led(seen, bird, gait), beat, remarks
-
-
-def _led(seen: Observations, bird: Bird, gait: Gait) -> Gait:
-    return replace(gait, lead=lead_of(seen, bird, gait))
+    return replace(gait, lead=lead_of(bird, gait)), beat, remarks
 
 
 def _fit(
@@ -154,11 +150,10 @@ def _fit(
     np.maximum.at(noise, seen.group, beat.noise)
     start = np.maximum(noise, _FIRST_SCATTER * seen.typical_of_names)
     solved = fit_orders(seen, gait, start, harmonics, hold_frequency=hold_frequency)
-    others = [j for j in range(seen.wing.segment.size) if j not in solved.gait.joints]
-    if any(reference_joint(bird, solved.gait) != j and bird.joints[j].amplitude for j in others):
-        for _ in range(_PASSES - 1):
-            again = _led(seen, bird, solved.gait)
-            solved = fit_orders(
-                seen, again, solved.scatter, harmonics, hold_frequency=hold_frequency
-            )
+    others = [joint for j, joint in enumerate(bird.joints) if j not in solved.gait.joints]
+    if all(joint.driver.is_still for joint in others):
+        return solved
+    for _ in range(_PASSES - 1):
+        again = replace(solved.gait, lead=lead_of(bird, solved.gait))
+        solved = fit_orders(seen, again, solved.scatter, harmonics, hold_frequency=hold_frequency)
     return solved

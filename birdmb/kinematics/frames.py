@@ -87,6 +87,8 @@ def without_body_motion(
             f"{origin}: the body's attitude needs three markers on the body or more, not on a line."
         )
     there = np.asarray(np.isfinite(measured).all(axis=2))
+    if not (there.sum(axis=1) >= _FEWEST).any():
+        raise KinematicsError(f"{origin}: in no frame are three markers on the body seen.")
     weight = there[:, :, None] / np.maximum(there.sum(axis=1), 1)[:, None, None]
     measured = np.where(there[:, :, None], measured, 0.0)
     centre, target = (weight * measured).sum(axis=1), (weight * wanted).sum(axis=1)

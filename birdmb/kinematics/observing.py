@@ -20,6 +20,7 @@ _FEWEST_FRAMES = 8
 _MOST_FRAMES = 20_000
 _OTHER_SIZE = 8.0  # times the wing's, and the points are in another unit
 _OTHER_LENGTH = 0.1  # of a bone's, beside which a fit is suspect
+_MIRRORED = 2.0  # times better in a mirror, and the axes are left-handed
 _OFF_THE_BODY = 0.1  # of the extent of the markers on the body
 
 
@@ -153,12 +154,13 @@ def _in_body_axes(
     points = points @ to_body_axes(frame or "body").T
     if markers.on_body.any():
         moved, off = without_body_motion(points, markers.on_body, markers.fixed, origin)
+        _, mirrored = without_body_motion(-points, markers.on_body, markers.fixed, origin)
         extent = float(np.ptp(markers.fixed[markers.on_body], axis=0).max())
-        if off > _OFF_THE_BODY * extent:
+        if off > _MIRRORED * mirrored or off > _OFF_THE_BODY * extent:
             raise KinematicsError(
-                f"{origin}: the markers on the body are {1e3 * off:.3g} mm off the places that "
-                "they should have on it; check these, or whether the file's axes are left-handed "
-                "(--frame)."
+                f"{origin}: the markers on the body are {1e3 * off:.3g} mm (rms) off the places "
+                f"that they should have on it, and {1e3 * mirrored:.3g} mm if the axes of the file "
+                "are left-handed; check the places, or say the axes (--frame)."
             )
         return moved, 6, []
     if SHOULDER not in markers.names:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from os import PathLike
@@ -11,12 +12,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.aerodynamics.prescribed import driver_motion_along
 from birdmb.topology import Bird
-from birdmb.wing.arrays import wing_arrays
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+
+_DECIMALS = 6
+_OF_THE_DRIVER = (
+    *("gain", "harmonics", "downstroke_fraction"),
+    *("samples", "sample_phases", "sample_harmonics"),
+)
 
 
 @dataclass(frozen=True)
@@ -52,7 +58,8 @@ class MarkerFit:
     """How well a marker, or a column of angles, is met.
 
     Attributes:
-        residual: rms distance of measured from fitted, along one axis; m, of angles rad.
+        residual: standard deviation of measured from fitted along one axis, the freedom that the
+            fit left counted; m, of angles rad.
         samples: in how many frames it was seen.
         missing: in how many it was not.
     """
@@ -110,12 +117,6 @@ class KinematicsFit:
         sizes = [1 if each in self.like.joint_names else 3 for each in self.markers]
         return sum(sizes[: list(self.markers).index(name)])
 
-    def angles_before(self, joint: str, phases: FloatArray) -> FloatArray:
-        """Angles (P,) rad that the driver of a joint of `like` has at `phases` (P,) of its beat."""
-        wing = wing_arrays(self.like.assembled)
-        angles, _, _ = driver_motion_along(wing, phases * self.like.period)
-        return np.asarray(angles[:, self.like.joint_names.index(joint)])
-
     def write(self, path: str | PathLike[str]) -> Path:
         """Write the bird as a topology file; comments of the file it was made like are kept.
 
@@ -135,22 +136,29 @@ class KinematicsFit:
         return plot_kinematics(self)
 
 
-def bird_with_gait(
-    like: Bird, frequency: float, joints: Mapping[str, JointMotion], name: str | None = None
-) -> Bird:
-    """A bird whose joints move so."""
-    values: dict[str, Any] = {"gait.frequency": frequency}
-    if name is not None:
-        values["name"] = name
-    for joint, motion in joints.items():
-        amplitudes = np.degrees(motion.amplitudes)
-        phases = np.degrees(motion.phases)
-        values[f"{joint}.offset_deg"] = float(np.degrees(motion.offset))
-        values[f"{joint}.amplitude_deg"] = float(amplitudes[0])
-        values[f"{joint}.phase_deg"] = float(phases[0])
-        if len(amplitudes) > 1:
-            values[f"{joint}.harmonics"] = [
-                {"order": order, "amplitude_deg": float(a), "phase_deg": float(p)}
-                for order, (a, p) in enumerate(zip(amplitudes[1:], phases[1:], strict=True), 2)
+def bird_with_gait(like: Bird, frequency: float, joints: Mapping[str, JointMotion]) -> Bird:
+    """A bird whose joints move so; angles are rounded to a millionth of a degree."""
+    values: dict[str, Any] = {"gait.frequency": round(frequency, _DECIMALS)}
+    for name, motion in joints.items():
+        joint = like.joint(name)
+        # Whatever else its driver was given by would go before, or beside, the new motion.
+        for key in _OF_THE_DRIVER:
+            default = type(joint).model_fields[key].default
+            if getattr(joint, key) != default:
+                values[f"{name}.{key}"] = default
+        first, *higher = zip(motion.amplitudes, motion.phases, strict=True)
+        values |= {f"{name}.{key}": value for key, value in _harmonic(*first).items()}
+        values[f"{name}.offset_deg"] = _degrees(motion.offset)
+        if higher:
+            values[f"{name}.harmonics"] = [
+                {"order": order, **_harmonic(*each)} for order, each in enumerate(higher, 2)
             ]
     return like.with_values(values)
+
+
+def _harmonic(amplitude: float, phase: float) -> dict[str, float]:
+    return {"amplitude_deg": _degrees(amplitude), "phase_deg": _degrees(phase)}
+
+
+def _degrees(angle: float) -> float:
+    return round(math.degrees(angle), _DECIMALS)

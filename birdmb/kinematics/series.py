@@ -138,7 +138,7 @@ def fit_series(
 def reweighted(seen: Observations, solved: Solved, *, hold_frequency: bool) -> Solved:
     """The fit with each marker weighed by the scatter that it turns out to have."""
     for _ in range(_REWEIGHTINGS):
-        scatter = _scatter(seen, solved)
+        scatter = marker_scatter(seen, solved)
         done = np.allclose(scatter, solved.scatter, rtol=0.02)
         solved = fit_series(seen, solved.gait, scatter, hold_frequency=hold_frequency)
         if done:
@@ -146,7 +146,7 @@ def reweighted(seen: Observations, solved: Solved, *, hold_frequency: bool) -> S
     return solved
 
 
-def _scatter(seen: Observations, solved: Solved) -> FloatArray:
+def marker_scatter(seen: Observations, solved: Solved) -> FloatArray:
     """Standard deviation of each marker: of its residuals, by the freedom that the fit left them.
 
     The trace of the residuals' projector over a marker's columns is its share of that freedom.
