@@ -15,12 +15,12 @@ from birdmb.kinematics.observations import Observations
 from birdmb.kinematics.poses import PHASES, solve_poses
 
 _MISFIT = 0.01  # of the wing's reach
-_HOPELESS = 0.12
+_HOPELESS = 0.08
 _NOISES = 5.0
 _MUCH_BETTER = 1.0 / 3.0
 _ALIKE = 1.5
 _STRANGE = math.radians(60.0)  # rms distance of a gait from the topology's own
-_UNUSUAL = math.radians(25.0)
+_UNUSUAL = math.radians(15.0)
 _EVERY = 3  # of the phases, to try axes
 
 

@@ -14,6 +14,7 @@ from birdmb.kinematics.series import Solved
 _FEWEST_BEATS = 2
 _LEAST_PART = 0.5  # of the samples that a beat has on average
 _LEAST_KNOWN = 1e-3  # of the mean information, which a beat's own is added to
+_NEARLY = 1e-3  # of a beat that may be missing
 _SURE = 0.99
 
 
@@ -77,7 +78,9 @@ def _of_beats(solved: Solved, times: FloatArray) -> tuple[FloatArray, FloatArray
     """Deviations (B, p) of whole beats from the mean one, and their covariances (B, p, p)."""
     phases = solved.gait.phases(times)
     number = np.floor(phases - phases[0]).astype(np.int64)
-    whole = int(np.floor(phases[-1] - phases[0] + 0.5 / max(1, len(phases))))
+    span = phases[-1] - phases[0]
+    # The last frame stands for the time up to the one that would follow.
+    whole = int(np.floor(span * len(phases) / (len(phases) - 1) + _NEARLY))
     slopes = solved.slopes[:, :, :-1]
     size = slopes.shape[2]
     information = solved.information[:-1, :-1]

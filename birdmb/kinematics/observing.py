@@ -20,7 +20,7 @@ _FEWEST_FRAMES = 8
 _MOST_FRAMES = 20_000
 _OTHER_SIZE = 8.0  # times the wing's, and the points are in another unit
 _OTHER_LENGTH = 0.1  # of a bone's, beside which a fit is suspect
-_MIRRORED = 2.0  # times better in a mirror, and the axes are left-handed
+_MIRRORED = 1.5  # times better in a mirror, and the axes are left-handed
 _OFF_THE_BODY = 0.1  # of the extent of the markers on the body
 
 

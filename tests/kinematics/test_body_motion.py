@@ -13,7 +13,7 @@ PLACES = {
     "back": [0.08, 0.0, -0.03],
     "rump": [-0.08, 0.02, -0.03],
     "left": [0.0, -0.03, -0.01],
-    "right": [0.02, 0.03, -0.04],
+    "keel": [0.02, 0.0, 0.04],
 }
 MARKERS = {name: {"body": place} for name, place in PLACES.items()}
 
