@@ -21,6 +21,7 @@ from birdmb.topology.samples import DriverFit, even_phases, most_harmonics, seri
 
 _FEWEST_SAMPLES, _MOST_SAMPLES = 3, 1000
 _ROUND_OFF = 1e-17
+_STILL = 1e-13  # rad
 _MOST_OF_A_STROKE = 30  # harmonics of uneven strokes; that of order 20 is below round-off
 _INSTANTS = 256
 _INSTANTS_PER_PERIOD = 32  # of the highest harmonic
@@ -85,8 +86,8 @@ class Driver:
 
     @property
     def is_still(self) -> bool:
-        """Whether the angle is its mean at all times."""
-        return not any(self.cosine) and not any(self.sine)
+        """Whether the angle is its mean at all times, but for round-off."""
+        return not (self.amplitudes > _STILL).any()
 
     @property
     def is_one_sine(self) -> bool:

@@ -150,7 +150,9 @@ class Joint(Part):
         default=None,
         description="stiffness where the joint is below its driver, N m/rad, if another than above",
     )
-    offset: Angle = Field(default=0.0, description="mean angle; rad, degrees as offset_deg")
+    offset: Angle = Field(
+        default=0.0, description="mean angle, added to samples; rad, degrees as offset_deg"
+    )
     amplitude: Angle = Field(default=0.0, description="amplitude; rad, degrees as amplitude_deg")
     phase: Angle = Field(default=0.0, description="phase at t = 0; rad, degrees as phase_deg")
     gain: Gain = Field(default=1.0, description="factor on the driver's motion about its mean")
