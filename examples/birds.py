@@ -7,7 +7,8 @@ import numpy as np
 
 import birdmb
 
-HEAD = f"{'bird':24}{'model':11}{'m/s':>7}{'climb':>8}{'|Lambda|max':>13}  {'verdict':10}{'W':>8}{'warnings':>10}"
+HEAD = f"{'bird':24}{'model':11}{'m/s':>7}{'climb':>8}{'|Lambda|max':>13}  {'verdict':10}{'W':>8}"
+HEAD += f"{'warnings':>10}"
 
 
 def row(name: str, model: type[birdmb.RigidModel] | type[birdmb.MultibodyModel]) -> str:
