@@ -11,7 +11,6 @@ from typing import Annotated, ClassVar, NamedTuple, Self
 
 import numpy as np
 from pydantic import Field, Strict, model_validator
-from scipy.special import jv
 
 from birdmb._typing import FloatArray
 from birdmb.topology.messages import problem
@@ -157,6 +156,8 @@ def _uneven(amplitude: float, phase: float, downstroke: float) -> FloatArray:
     is -+ pi/2. Jacobi and Anger: sin(tau + b sin(tau)) is the sum of J_{m-1}(b) + (-1)^m J_{m+1}(b)
     times sin(m tau), which falls faster than any power of m.
     """
+    from scipy.special import jv  # noqa: PLC0415 - few birds need it, and all would wait for it
+
     b = math.pi * (0.5 - downstroke) / math.sin(math.pi * downstroke)
     orders = np.arange(1, _MOST_OF_A_STROKE + 1)
     sizes = jv(orders - 1, b) + (-1.0) ** orders * jv(orders + 1, b)

@@ -86,4 +86,4 @@ def test_new_overwrites_nothing(run, tmp_path):
 def test_new_asks_what_from(run):
     done = run("new", "mine.toml")
     assert done.exit_code == 2
-    assert "--like one of gull_glider, ibis, " in " ".join(done.stderr.split())
+    assert "--like one of flapping_robot, gull_glider, " in " ".join(done.stderr.split())
