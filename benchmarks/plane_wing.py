@@ -13,7 +13,7 @@ from rich.table import Table
 
 from birdmb.aerodynamics.elements import place_elements
 from birdmb.aerodynamics.pair import pair_loads
-from birdmb.aerodynamics.twist_loads import mirrored
+from birdmb.aerodynamics.twist_loads import mirrored, wing_wrench
 from birdmb.wing.shape import WingShape
 
 Wrench = Callable[[np.ndarray], np.ndarray]
@@ -50,15 +50,15 @@ def lifting_line(elements: int) -> Wrench:
     each = (elements, 1)
     shape = WingShape(
         line, np.zeros((elements, 3)), np.tile(back, each), np.tile(up, each), np.tile(span, each),
-        chords(y[0::2]) * np.cos(sweep), np.zeros((elements, 2)), True,
-        np.zeros((0, elements, 3)),
+        chords(y[0::2]) * np.cos(sweep), np.tile([2.0 * np.pi, 0.0, 0.0], each),
+        np.zeros((elements, 2)), True, np.zeros((0, elements, 6)),
     )  # fmt: skip
     placed = place_elements(shape, np.zeros(3))
 
     def wrench(twist: np.ndarray) -> np.ndarray:
+        both = pair_loads(placed, placed, False, 1.0, 0.0, twist)
         right, left = (
-            np.append(loads.force.sum(axis=0), np.cross(placed.position, loads.force).sum(axis=0))
-            for loads in pair_loads(placed, placed, False, 1.0, 0.0, twist)
+            wing_wrench(placed.position, loads.wrench[:, :, None])[:, 0] for loads in both
         )
         return np.asarray(right + mirrored(left))
 

@@ -43,6 +43,7 @@ from .studies.scaling import ScaledBird, scale_bird
 from .studies.sweeps import Study, SweepError, Trimming, sweep
 from .studies.tail import stability_openings, tail_study
 from .topology import Bird, load_bird
+from .topology.shipped import bird_names
 
 __all__ = [
     "ArgumentError",
@@ -74,6 +75,7 @@ __all__ = [
     "Validity",
     "assess_validity",
     "bird_branch",
+    "bird_names",
     "continue_branch",
     "find_limit_cycle",
     "find_limit_cycles",

@@ -18,7 +18,7 @@ class AeroConstants(NamedTuple):
     """Constants of the air and of all that is not the wing's shape."""
 
     density: float  # kg/m3
-    profile: float  # drag coefficient of the wing's sections
+    profile_drag: float  # drag coefficient of the wing's sections
     tail: TailSurface
     body: BodyDrag
     slender: SlenderBody
@@ -26,9 +26,10 @@ class AeroConstants(NamedTuple):
 
 def aero_constants(bird: Bird) -> AeroConstants:
     """The constants of a bird; what its topology leaves out has no loads."""
+    bird = bird.assembled
     return AeroConstants(
         density=bird.air.density,
-        profile=bird.drag.profile_coefficient,
+        profile_drag=bird.drag.profile_coefficient,
         tail=tail_surface(bird),
         body=body_drag(bird),
         slender=slender_body(bird),

@@ -37,6 +37,7 @@ class Elements(NamedTuple):
     normal: FloatArray  # (N, 3) up
     span_direction: FloatArray  # (N, 3) outwards
     chord: FloatArray  # (N,) m
+    profile: FloatArray  # (N, 3) lift slope 1/rad, zero-lift angle rad, moment coefficient
     node: FloatArray  # (N + 1, 3) m, from the centre line to the wing tip
     width: FloatArray  # (N,) m, distance between the element's nodes
     induced_y: FloatArray  # (N, N) 1/m, velocity along y at control i by circulation j, even parity
@@ -66,6 +67,7 @@ def place_elements(shape: WingShape, root: FloatArray) -> Elements:
         shape.normal,
         shape.span_direction,
         shape.chord,
+        shape.profile,
         node,
         width,
         induced_y,
@@ -160,7 +162,8 @@ def circulation_system(elements: Elements) -> FloatArray:
 
 @kernel
 def system_of(elements: Elements, induced_y: FloatArray, induced_z: FloatArray) -> FloatArray:
-    """Matrix (N, N) of the circulation's linear system, system @ Gamma = pi c |U| alpha.
+    """Matrix (N, N) of the circulation's linear system, system @ Gamma = circulations without
+    downwash.
 
     `induced_y` and `induced_z` (N, N) 1/m are the wake's influence, of either parity.
     """
@@ -182,7 +185,7 @@ def downwash_share(elements: Elements, induced_y: FloatArray, induced_z: FloatAr
     for i in range(n):
         dy = elements.node[i + 1, 1] - elements.node[i, 1]
         dz = elements.node[i + 1, 2] - elements.node[i, 2]
-        scale = np.pi * elements.chord[i] / np.sqrt(dy * dy + dz * dz)
+        scale = 0.5 * elements.profile[i, 0] * elements.chord[i] / np.sqrt(dy * dy + dz * dz)
         for j in range(m):
             share[i, j] = scale * (induced_z[i, j] * dy - induced_y[i, j] * dz)
     return share

@@ -19,13 +19,13 @@ from birdmb.aerodynamics.elements import (
     circulation_system,
     downwash_share,
 )
-from birdmb.aerodynamics.twist_loads import Flow, element_forces, mirrored, wing_flow
+from birdmb.aerodynamics.twist_loads import Flow, element_wrenches, mirrored, wing_flow
 
 
 class PairSystem(NamedTuple):
     """What the circulations of M elements obey, and the velocities that they induce at them."""
 
-    matrix: FloatArray  # (M, M), times the circulations it is pi c |U| alpha
+    matrix: FloatArray  # (M, M), times the circulations it is those without downwash
     induced_y: FloatArray  # (M, M) 1/m
     induced_z: FloatArray  # (M, M) 1/m
 
@@ -36,7 +36,7 @@ class ElementLoads(NamedTuple):
     circulation: FloatArray  # (N,) m2/s
     angle_of_attack: FloatArray  # (N,) rad, geometric (before the downwash)
     speed: FloatArray  # (N,) m/s in the section's plane
-    force: FloatArray  # (N, 3) N, profile drag included
+    wrench: FloatArray  # (N, 6) N and N m at the control points, profile drag included
     profile_drag: FloatArray  # (N, 3) N
 
 
@@ -78,13 +78,13 @@ def pair_loads(
     left: Elements,
     is_mirrored: bool,
     density: float,
-    profile: float,
+    profile_drag: float,
     twist: FloatArray,
 ) -> tuple[ElementLoads, ElementLoads]:
     """Loads of the right wing and of the left one, of a body that moves with a `twist` (6,).
 
-    `density` (kg/m3) is the air's, `profile` the drag coefficient of the sections. A mirrored pair
-    has the same loads on both sides; v, p and r of the twist must then be zero.
+    `density` (kg/m3) is the air's, `profile_drag` the drag coefficient of the sections. A mirrored
+    pair has the same loads on both sides; v, p and r of the twist must then be zero.
     """
     n = right.chord.size
     system = pair_system(right, left, is_mirrored)
@@ -96,10 +96,10 @@ def pair_loads(
     bound = flow.bound if is_mirrored else np.concatenate((flow.bound, flow_left.bound))
     gamma = circulations(system, bound)
     y, z = system.induced_y @ gamma, system.induced_z @ gamma
-    of_right = _loads(right, flow, gamma[:n], y[:n], z[:n], density, profile)
+    of_right = _loads(right, flow, gamma[:n], y[:n], z[:n], density, profile_drag)
     if is_mirrored:
         return of_right, of_right
-    return of_right, _loads(left, flow_left, gamma[n:], y[n:], z[n:], density, profile)
+    return of_right, _loads(left, flow_left, gamma[n:], y[n:], z[n:], density, profile_drag)
 
 
 @kernel
@@ -110,16 +110,16 @@ def _loads(
     induced_y: FloatArray,
     induced_z: FloatArray,
     density: float,
-    profile: float,
+    profile_drag: float,
 ) -> ElementLoads:
     wind = flow.wind
-    lift = element_forces(elements, wind, gamma, induced_y, induced_z, density, 0.0)
-    force = lift
-    if profile > 0.0:
-        force = element_forces(elements, wind, gamma, induced_y, induced_z, density, profile)
-    drag = (force - lift)[:, :, 0].copy()
+    without = element_wrenches(elements, wind, gamma, induced_y, induced_z, density, 0.0)
+    loads = without
+    if profile_drag > 0.0:
+        loads = element_wrenches(elements, wind, gamma, induced_y, induced_z, density, profile_drag)
+    drag = (loads - without)[:, :3, 0].copy()
     return ElementLoads(
-        gamma[:, 0].copy(), flow.angle_of_attack, flow.speed, force[:, :, 0].copy(), drag
+        gamma[:, 0].copy(), flow.angle_of_attack, flow.speed, loads[:, :, 0].copy(), drag
     )
 
 

@@ -26,7 +26,7 @@ from birdmb.aerodynamics.elements import (
 from birdmb.aerodynamics.pair import pair_system, pair_wrench
 from birdmb.aerodynamics.tail import TailSurface, tail_influence
 from birdmb.aerodynamics.twist_loads import (
-    element_forces,
+    element_wrenches,
     mirrored_flow,
     wing_flow,
     wing_wrench,
@@ -100,6 +100,7 @@ def _tabulated(shapes: StackedShapes, root: FloatArray, tail: TailSurface) -> Pr
         shapes.normal,
         shapes.span_direction,
         shapes.chord,
+        shapes.profile,
         node,
         width,
         induced_y,
@@ -129,6 +130,7 @@ def at_phase(stack: Elements, k: int) -> Elements:
         stack.normal[k],
         stack.span_direction[k],
         stack.chord[k],
+        stack.profile[k],
         stack.node[k],
         stack.width[k],
         stack.induced_y[k],
@@ -192,16 +194,16 @@ def symmetric_loads(
     elements = at_phase(wing.elements, k)
     flow = wing_flow(elements, elements.velocity, twist, directions)
     circulation = wing.inverse[k] @ flow.bound
-    forces = element_forces(
+    wrenches = element_wrenches(
         elements,
         flow.wind,
         circulation,
         elements.induced_y @ circulation,
         elements.induced_z @ circulation,
         aero.density,
-        aero.profile,
+        aero.profile_drag,
     )
-    wrench = wing_wrench(elements.position, forces)
+    wrench = wing_wrench(elements.position, wrenches)
     total = pair_wrench(wrench, wrench)
     return total + airframe_loads(aero, wing.at_tail[k] @ circulation, twist, directions)
 
@@ -237,11 +239,11 @@ def free_loads(
     else:
         gamma[:] = wakes.inverse[k] @ np.concatenate((flow.bound, flow_left.bound))
         y[:], z[:] = wakes.induced_y[k] @ gamma, wakes.induced_z[k] @ gamma
-    density, profile = aero.density, aero.profile
-    forces = element_forces(elements, flow.wind, gamma[:n], y[:n], z[:n], density, profile)
-    of_right = wing_wrench(elements.position, forces)
-    forces = element_forces(image, flow_left.wind, gamma[n:], y[n:], z[n:], density, profile)
-    of_left = wing_wrench(image.position, forces)
+    density, drag = aero.density, aero.profile_drag
+    wrenches = element_wrenches(elements, flow.wind, gamma[:n], y[:n], z[:n], density, drag)
+    of_right = wing_wrench(elements.position, wrenches)
+    wrenches = element_wrenches(image, flow_left.wind, gamma[n:], y[n:], z[n:], density, drag)
+    of_left = wing_wrench(image.position, wrenches)
     total = pair_wrench(of_right, of_left)
     # In the plane of symmetry each wing induces half of what a pair of them would.
     induced = 0.5 * (right.at_tail[k] @ gamma[:n] + left.at_tail[k] @ gamma[n:])

@@ -1,12 +1,14 @@
 """Quasi-steady loads of the lifting line on a body that moves in space, and their derivatives.
 
 With U the wind that an element meets, its component along the span removed, and alpha its angle
-to the chord, thin-airfoil theory and the downwash w of the wake give
+to the chord, the profile's lift slope a and zero-lift angle alpha_0 (2 pi and 0 by thin-airfoil
+theory) and the downwash w of the wake give
 
-    Gamma = 1/2 c 2 pi (|U| alpha - w),   w linear in Gamma,
+    Gamma = 1/2 c a (|U| (alpha - alpha_0) - w),   w linear in Gamma,
 
 which is one linear system. Each element then feels rho Gamma (U_total x e_t) dl, U_total with the
-induced velocity, and the profile drag 1/2 rho C_d c dl |U| U of the whole wind U without it.
+induced velocity, the profile drag 1/2 rho C_d c dl |U| U of the whole wind U without it, and the
+moment 1/2 rho C_m c^2 dl |U|^2 about the span e_t, nose up, by the wind in the section's plane.
 Everything is in body axes, moments are about the body's centre of mass G.
 
 A twist (6,) is the velocity u, v, w (m/s) of the centre of mass G along the body's axes and the
@@ -75,7 +77,7 @@ def wing_flow(
         elements.normal,
         elements.span_direction,
     )
-    position, chord = elements.position, elements.chord
+    position, chord, profile = elements.position, elements.chord, elements.profile
     for e in range(n):
         x, y, z = position[e, 0], position[e, 1], position[e, 2]
         cx, cy, cz = chord_direction[e, 0], chord_direction[e, 1], chord_direction[e, 2]
@@ -94,8 +96,9 @@ def wing_flow(
         back = px * cx + py * cy + pz * cz
         speed[e] = np.sqrt(px * px + py * py + pz * pz)
         alpha[e] = np.arctan2(rising, back)
-        factor = np.pi * chord[e]
-        bound[e, 0] = factor * speed[e] * alpha[e]
+        factor = 0.5 * profile[e, 0] * chord[e]
+        lifting = alpha[e] - profile[e, 1]
+        bound[e, 0] = factor * speed[e] * lifting
         square = rising * rising + back * back
         for m in range(1, columns):
             dx, dy, dz = wind[e, 0, m], wind[e, 1, m], wind[e, 2, m]
@@ -105,7 +108,7 @@ def wing_flow(
             d_rising = gx * nx + gy * ny + gz * nz
             d_back = gx * cx + gy * cy + gz * cz
             d_alpha = (back * d_rising - rising * d_back) / square
-            bound[e, m] = factor * (d_speed * alpha[e] + speed[e] * d_alpha)
+            bound[e, m] = factor * (d_speed * lifting + speed[e] * d_alpha)
     return Flow(wind, speed, alpha, bound)
 
 
@@ -121,23 +124,24 @@ def mirrored_flow(elements: Elements, twist: FloatArray, directions: IntArray) -
 
 
 @kernel
-def element_forces(
+def element_wrenches(
     elements: Elements,
     wind: FloatArray,
     circulation: FloatArray,
     induced_y: FloatArray,
     induced_z: FloatArray,
     density: float,
-    profile: float,
+    profile_drag: float,
 ) -> FloatArray:
-    """Forces (N, 3, 1 + d) N of lift and profile drag on the elements of one wing.
+    """Forces (N) and moments (N m) of the air, (N, 6, 1 + d), on the elements of one wing.
 
-    `wind` (N, 3, 1 + d) m/s is the velocity of the air relative to them, `circulation` (N, 1 + d)
-    m2/s, `induced_y` and `induced_z` (N, 1 + d) m/s the velocities that the wake induces. Lift acts
-    on the wind with, profile drag on that without these.
+    Lift and profile drag at the control points, and the moment of the profile. `wind` (N, 3, 1 + d)
+    m/s is the velocity of the air relative to them, `circulation` (N, 1 + d) m2/s, `induced_y` and
+    `induced_z` (N, 1 + d) m/s the velocities that the wake induces. Lift acts on the wind with,
+    drag and moment on that without these.
     """
     n, columns = circulation.shape
-    forces = np.empty((n, 3, columns))
+    loads = np.empty((n, 6, columns))
     span, width, chord = elements.span_direction, elements.width, elements.chord
     for e in range(n):
         tx, ty, tz = span[e, 0], span[e, 1], span[e, 2]
@@ -146,10 +150,14 @@ def element_forces(
         y, z = ay + induced_y[e, 0], az + induced_z[e, 0]
         scale = density * width[e]
         relative = np.sqrt(ax * ax + ay * ay + az * az)
-        drag = 0.5 * profile * chord[e]
-        forces[e, 0, 0] = scale * (gamma * (y * tz - z * ty) + drag * relative * ax)
-        forces[e, 1, 0] = scale * (gamma * (z * tx - ax * tz) + drag * relative * ay)
-        forces[e, 2, 0] = scale * (gamma * (ax * ty - y * tx) + drag * relative * az)
+        drag = 0.5 * profile_drag * chord[e]
+        pitching = 0.5 * scale * elements.profile[e, 2] * chord[e] * chord[e]
+        along = ax * tx + ay * ty + az * tz
+        moment = pitching * (relative * relative - along * along)
+        loads[e, 0, 0] = scale * (gamma * (y * tz - z * ty) + drag * relative * ax)
+        loads[e, 1, 0] = scale * (gamma * (z * tx - ax * tz) + drag * relative * ay)
+        loads[e, 2, 0] = scale * (gamma * (ax * ty - y * tx) + drag * relative * az)
+        loads[e, 3, 0], loads[e, 4, 0], loads[e, 5, 0] = moment * tx, moment * ty, moment * tz
         for m in range(1, columns):
             wx, wy, wz = wind[e, 0, m], wind[e, 1, m], wind[e, 2, m]
             dy, dz = wy + induced_y[e, m], wz + induced_z[e, m]
@@ -157,26 +165,29 @@ def element_forces(
             fx = g * (y * tz - z * ty) + gamma * (dy * tz - dz * ty)
             fy = g * (z * tx - ax * tz) + gamma * (dz * tx - wx * tz)
             fz = g * (ax * ty - y * tx) + gamma * (wx * ty - dy * tx)
-            slope = (ax * wx + ay * wy + az * wz) / relative
-            forces[e, 0, m] = scale * (fx + drag * (slope * ax + relative * wx))
-            forces[e, 1, m] = scale * (fy + drag * (slope * ay + relative * wy))
-            forces[e, 2, m] = scale * (fz + drag * (slope * az + relative * wz))
-    return forces
+            product = ax * wx + ay * wy + az * wz
+            slope = product / relative
+            moment = 2.0 * pitching * (product - along * (wx * tx + wy * ty + wz * tz))
+            loads[e, 0, m] = scale * (fx + drag * (slope * ax + relative * wx))
+            loads[e, 1, m] = scale * (fy + drag * (slope * ay + relative * wy))
+            loads[e, 2, m] = scale * (fz + drag * (slope * az + relative * wz))
+            loads[e, 3, m], loads[e, 4, m], loads[e, 5, m] = moment * tx, moment * ty, moment * tz
+    return loads
 
 
 @kernel
-def wing_wrench(position: FloatArray, forces: FloatArray) -> FloatArray:
-    """Wrench (6, 1 + d) about G of `forces` (N, 3, 1 + d) N at `position` (N, 3) m of one wing."""
-    n, _, columns = forces.shape
+def wing_wrench(position: FloatArray, loads: FloatArray) -> FloatArray:
+    """Wrench (6, 1 + d) about G of `loads` (N, 6, 1 + d) at `position` (N, 3) m of one wing."""
+    n, _, columns = loads.shape
     total = np.zeros((6, columns))
     for e in range(n):
         x, y, z = position[e, 0], position[e, 1], position[e, 2]
         for m in range(columns):
-            fx, fy, fz = forces[e, 0, m], forces[e, 1, m], forces[e, 2, m]
+            fx, fy, fz = loads[e, 0, m], loads[e, 1, m], loads[e, 2, m]
             total[0, m] += fx
             total[1, m] += fy
             total[2, m] += fz
-            total[3, m] += y * fz - z * fy
-            total[4, m] += z * fx - x * fz
-            total[5, m] += x * fy - y * fx
+            total[3, m] += y * fz - z * fy + loads[e, 3, m]
+            total[4, m] += z * fx - x * fz + loads[e, 4, m]
+            total[5, m] += x * fy - y * fx + loads[e, 5, m]
     return total

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from birdmb.cli.bird_commands import commands as bird_commands
 from birdmb.cli.drawing import ignore_settings
 from birdmb.cli.flight_commands import commands as flight_commands
 from birdmb.cli.options import (
@@ -295,20 +296,40 @@ def branch(
 
 
 @app.command(
+    epilog="Exit status: 0; 2 wrong option, or a file that cannot be written.\n\n"
+    "Example: birdmb schema --out birdmb.schema.json"
+)
+def schema(
+    markdown: Annotated[
+        bool, typer.Option("--markdown", help="The page docs/format.md instead of the schema.")
+    ] = False,
+    out: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Write it here.", show_default="standard output"),
+    ] = None,
+) -> None:
+    """Print the JSON schema of topology files, with which editors complete keys and mark mistakes.
+
+    A topology file whose first line is `#:schema ./birdmb.schema.json` names its schema.
+    """
+    with reported():
+        from birdmb.cli.schema import run  # noqa: PLC0415
+
+        run(markdown, out)
+
+
+@app.command(
     epilog="Exit status: 0; 2 wrong option; 130 interrupted. Takes a minute or two.\n\n"
     "Example: birdmb validate"
 )
-def validate(
-    topologies: Annotated[
-        Path, typer.Option(metavar="DIR", help="Directory of the shipped topology files.")
-    ] = Path("topologies"),
-) -> None:
+def validate() -> None:
     """Print what the thesis published against what is computed here, with the command behind it."""
     with reported(as_json=False):
         from birdmb.cli.validate import run  # noqa: PLC0415
 
-        run(topologies)
+        run()
 
 
 app.add_typer(study_commands)
 app.add_typer(flight_commands)
+app.add_typer(bird_commands)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from pathlib import Path
 
 from birdmb.cli.outcome import InputError
 from birdmb.topology import Bird, load_bird, parse_assignment
@@ -11,7 +10,7 @@ from birdmb.topology.unused import SPRING, own_names, unused_spring
 
 
 def requested_bird(
-    topology: Path, assignments: Sequence[str], varied: Mapping[str, object] | None = None
+    topology: str, assignments: Sequence[str], varied: Mapping[str, object] | None = None
 ) -> Bird:
     """The bird of a topology file with the values of `NAME=VALUE` assignments, in any order.
 
@@ -39,6 +38,19 @@ def requested_bird(
         if reason and unused and f"{joint.name}.mode" not in (varied or {}):
             raise InputError(f"--set {unused[0]} has no effect: {reason}.")
     return found
+
+
+def lasting(assignments: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Split assignments into what makes another bird and what is for a computation alone.
+
+    The latter is how finely a bird is computed: a file that is written has what it had before.
+    """
+    passing = [text for text in assignments if _is_discretisation(parse_assignment(text)[0])]
+    return [text for text in assignments if text not in passing], passing
+
+
+def _is_discretisation(name: str) -> bool:
+    return name.split(".")[:2] == ["wing", "discretisation"]
 
 
 def _completing(

@@ -17,9 +17,9 @@ from birdmb.models.natural_oscillation import (
     joint_oscillations,
 )
 from birdmb.studies.bird_warnings import bird_warnings, load_warnings
+from birdmb.studies.flight_regime import LIFT_COEFFICIENT, FlightRegime, flight_regime
 from birdmb.studies.refinement import LoadChange, load_change
-from birdmb.topology import BONES, SIDES, Bird
-from birdmb.wing.outline import span_and_area
+from birdmb.topology import SIDES, Bird
 
 _DRAG_SPEED = 10.0  # m/s
 
@@ -73,23 +73,40 @@ def _loads(bird: Bird, change: LoadChange) -> Table:
 
 def _bird(bird: Bird) -> Table:
     table = table_of(bird.name, "quantity", "value", "unit", numbers=(1,))
-    span, area = span_and_area(bird)
+    regime = flight_regime(bird)
     numbers = bird.wing.resolved_discretisation
     weight = bird.total_mass * bird.gravity
     rows = (
         ("mass of the whole bird", f"{bird.total_mass:.6g}", "kg"),
         ("mass of the body", f"{bird.body.mass:.6g}", "kg"),
         ("pitch inertia of the body", f"{bird.body.inertia_yy:.4g}", "kg m2"),
-        ("span, joints at zero", f"{span:.3f}", "m"),
-        ("wing area, joints at zero", f"{area:.4f}", "m2"),
-        ("wing loading", f"{weight / area:.1f}", "N/m2"),
+        ("span, joints at zero", f"{regime.span:.3f}", "m"),
+        ("wing area, joints at zero", f"{regime.area:.4f}", "m2"),
+        ("aspect ratio, joints at zero", f"{regime.aspect_ratio:.3g}", ""),
+        ("wing loading", f"{weight / regime.area:.1f}", "N/m2"),
         ("wingbeat frequency", f"{bird.gait.frequency:.4g}", "Hz"),
+        *_at_speed(regime),
         ("elements per wing", f"{numbers.elements}", f"{numbers.scheme}"),
         *_tail_and_drag(bird),
     )
     for row in rows:
         table.add_row(*row)
     return table
+
+
+def _at_speed(regime: FlightRegime) -> list[tuple[str, str, str]]:
+    if np.isnan(regime.speed):
+        return []
+    rows = [
+        (f"speed U at lift coefficient {LIFT_COEFFICIENT:g}", f"{regime.speed:.3g}", "m/s"),
+        ("Reynolds number of the mean chord at U", f"{regime.reynolds_number:.2g}", ""),
+    ]
+    if not np.isnan(regime.reduced_frequency):
+        rows += [
+            ("reduced frequency at U", f"{regime.reduced_frequency:.2g}", ""),
+            ("Strouhal number at U", f"{regime.strouhal_number:.2g}", ""),
+        ]
+    return rows
 
 
 def _tail_and_drag(bird: Bird) -> list[tuple[str, str, str]]:
@@ -104,15 +121,14 @@ def _tail_and_drag(bird: Bird) -> list[tuple[str, str, str]]:
     if bird.drag.profile_coefficient:
         rows.append(("profile drag coefficient", f"{bird.drag.profile_coefficient:.4g}", ""))
     if bird.drag.body:
-        drag = -body_drag_force(body_drag(bird), np.array([_DRAG_SPEED, 0.0, 0.0]))[0, 0]
+        drag = -body_drag_force(body_drag(bird.assembled), np.array([_DRAG_SPEED, 0.0, 0.0]))[0, 0]
         rows.append((f"body drag at {_DRAG_SPEED:g} m/s", f"{drag:.3g}", "N"))
     return rows
 
 
 def _segments(bird: Bird) -> Table:
     table = table_of("Segments of one wing", "segment", "length, m", "mass, kg", numbers=(1, 2))
-    for bone in BONES:
-        segment = getattr(bird.segments, bone)
+    for bone, segment in bird.segments.items():
         table.add_row(bone, f"{segment.length:.4g}", f"{segment.mass:.4g}")
     return table
 

@@ -18,7 +18,6 @@ from birdmb.cli.options import (
     Speed,
     Topology,
     Workers,
-    number,
 )
 from birdmb.cli.outcome import reported
 
@@ -78,8 +77,8 @@ def trim(
         typer.Option(
             metavar="NAME=LOW:HIGH",
             help="Trim by this value of the bird, within the bounds; twice with a --speed.",
-            show_default="forearm.roll.offset_deg=-30:30, with a speed "
-            "shoulder.flap.amplitude_deg=15:70 too",
+            show_default="the offset of the joint that turns the chords, -30 to 30 degrees; with "
+            "a speed the amplitude of the one that flaps too, 15 to 70",
         ),
     ] = None,
     climb_rate: ClimbRate = 0.0,
@@ -88,7 +87,11 @@ def trim(
     assignments: Assignments = None,
     out: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Write the trimmed bird as a topology file (TOML)."),
+        typer.Option(
+            metavar="FILE",
+            help="Write the topology file with the trimmed values and those of --set, its comments "
+            "kept. A --set wing.discretisation is for the search alone.",
+        ),
     ] = None,
 ) -> None:
     """Trim the flight of a bird: to level flight, at a wanted speed, or to a climb rate."""
@@ -101,7 +104,16 @@ def trim(
 
         from birdmb.cli.trim import run  # noqa: PLC0415 - not before all of it is sound
 
-        run(bird, bounds, climb_rate, speed, model=model.value, out=out)
+        run(
+            bird,
+            topology,
+            assignments or [],
+            bounds,
+            climb_rate,
+            speed,
+            model=model.value,
+            out=out,
+        )
 
 
 @commands.command(
@@ -148,43 +160,3 @@ def tail_study(
         from birdmb.cli.tail_study import run  # noqa: PLC0415 - not before the bird is sound
 
         run(bird, store, every=every, workers=workers, out=out)
-
-
-@commands.command(
-    epilog=(
-        "Exit status: 0 written; 2 a mass or topology that is none.\n\n"
-        "Example: birdmb scale --mass 0.4 --out small.toml"
-    )
-)
-def scale(
-    mass: Annotated[
-        float,
-        typer.Option(
-            metavar="KG",
-            help="Mass of the whole bird, kg.",
-            callback=number("--mass", 1e-9, 1e5, "it is in kg, and the laws are those of birds"),
-        ),
-    ],
-    topology: Annotated[
-        Path | None,
-        typer.Option(
-            "--like",
-            metavar="FILE",
-            help="Topology file of the bird that is scaled.",
-            show_default="the ibis",
-        ),
-    ] = None,
-    out: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="Write it here.", show_default="standard output"),
-    ] = None,
-) -> None:
-    """Make a topology file of a bird of another mass by allometric laws, as a starting point.
-
-    Span 1.17 m^0.39 m, wing area 0.16 m^0.72 m2 and wingbeat frequency 3.87 m^-0.33 Hz of birds of
-    m kg; the file says what else was assumed.
-    """
-    with reported():
-        from birdmb.cli.scale import run  # noqa: PLC0415
-
-        run(mass, topology, out)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from enum import StrEnum
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -60,7 +59,10 @@ def number(
     return check
 
 
-Topology = Annotated[Path, typer.Argument(help="Topology file of the bird (TOML).")]
+Topology = Annotated[
+    str,
+    typer.Argument(help="Topology file (TOML), or the name of a bird of the package."),
+]
 Assignments = Annotated[
     list[str] | None,
     typer.Option(

@@ -40,8 +40,9 @@ _FEW_STATES = 6
 _FEW_STARTS = 5
 _ITERATIONS_PER_START = 25
 TRIM = (
-    "`birdmb trim TOPOLOGY` looks for a value of the bird with which it flies level, by default of "
-    "forearm.roll.offset_deg (--by names another), and such a bird is a good one to begin with"
+    "`birdmb trim TOPOLOGY` looks for a value of the bird with which it flies level, by default "
+    "the offset of the joint that turns the chords (--by names another), and such a bird is a good "
+    "one to begin with"
 )
 
 

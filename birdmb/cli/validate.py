@@ -2,26 +2,18 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from rich.console import Console
 
 from birdmb.cli.console import messages, output
-from birdmb.cli.outcome import InputError
 from birdmb.cli.progress import Progress
 from birdmb.cli.report import table_of
 from birdmb.studies.validation import Comparison, compare, published_cases
 
 
-def run(topologies: Path) -> None:
-    """Compute the published cases with the birds in `topologies` and print both side by side."""
-    if not (topologies / "ibis.toml").is_file():
-        raise InputError(
-            f"{topologies}: no ibis.toml here; name the directory of the shipped topologies with "
-            "--topologies."
-        )
+def run() -> None:
+    """Compute the published cases with the birds of the package and print both side by side."""
     console, progress = output(), Progress(messages())
-    cases = published_cases(topologies)
+    cases = published_cases()
     with progress.shown():
         progress.line(f"computing {len(cases)} published cases")
         for comparison in compare(cases):

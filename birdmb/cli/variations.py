@@ -71,7 +71,7 @@ def requested_bounds(
         if not -math.inf < low < high < math.inf:
             raise InputError(
                 f'{option} "{text}" must read NAME=LOWEST:HIGHEST, as in '
-                "forearm.roll.offset_deg=-12:12."
+                "shoulder.pitch.offset_deg=-12:12."
             )
         bounds[name.strip()] = (low, high)
     targets = 1 if speed is None else 2

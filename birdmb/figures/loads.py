@@ -11,11 +11,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
-from birdmb.figures.style import LINE, MEAN, beat_axis, label_beat, title_of
+from birdmb.figures.style import LINE, MEAN, beat_axis, label_beat, show_no_round_off, title_of
 from birdmb.text import in_figure
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
+
+_LEVER = 0.1  # m, of the weight: a typical moment
+_NOTHING = 1e-6  # of a typical size
 
 
 def plot_loads_and_power(cycle: FlightCycle) -> Figure:
@@ -24,11 +27,11 @@ def plot_loads_and_power(cycle: FlightCycle) -> Figure:
     left, right = figure.subfigures(1, 2, squeeze=False, width_ratios=(1, 1.15))[0]
     loads = left.subplots(3, 1, sharex=True)
     draw_loads(loads, cycle)
-    label_beat(loads[-1])
+    label_beat(loads[-1], cycle)
     top, bottom = right.subplots(2, 1, sharex=True, height_ratios=(1, 1.5))
     draw_wing_power(top, cycle)
     draw_joint_powers(bottom, cycle)
-    label_beat(bottom)
+    label_beat(bottom, cycle)
     figure.suptitle(f"{title_of(cycle)}: loads and power over a beat", fontsize="medium")
     return figure
 
@@ -46,14 +49,17 @@ def draw_loads(rows: Sequence[Axes], cycle: FlightCycle) -> None:
     rows[1].axhline(weight, color="0.35", ls=":", lw=1.2, label=f"weight {weight:.3g} N")
     for axes, (name, values) in zip(rows, curves.items(), strict=True):
         beat_axis(axes, cycle)
-        _with_mean(axes, beat.times, values, name.partition("(")[2].rstrip(")"))
+        size = weight * _LEVER if "M_y" in name else weight
+        _with_mean(axes, beat.times, values, name.partition("(")[2].rstrip(")"), size)
         axes.set_ylabel(name)
 
 
 def draw_wing_power(axes: Axes, cycle: FlightCycle) -> None:
     """Draw the power that moving the wings against the air takes."""
     beat_axis(axes, cycle)
-    _with_mean(axes, cycle.beat.times, cycle.beat.wing_power, "W")
+    model = cycle.model
+    lifting = model.mass * model.bird.gravity * cycle.mean_speed
+    _with_mean(axes, cycle.beat.times, cycle.beat.wing_power, "W", lifting)
     axes.set_ylabel("wing power (W)")
 
 
@@ -82,12 +88,15 @@ def draw_joint_powers(axes: Axes, cycle: FlightCycle) -> None:
     )
 
 
-def _with_mean(axes: Axes, times: FloatArray, values: FloatArray, unit: str) -> None:
+def _with_mean(axes: Axes, times: FloatArray, values: FloatArray, unit: str, size: float) -> None:
+    """Draw values (K,) of a typical size and their mean."""
     mean = float(values[:-1].mean())
-    if abs(mean) < 1e-4 * float(np.ptp(values)):  # a balance that holds to the orbit's residual
+    # A balance that holds to the orbit's residual.
+    if abs(mean) < 1e-4 * max(float(np.ptp(values)), _NOTHING * size):
         mean = 0.0
     axes.axhline(0, color="0.7", lw=0.8)
     axes.plot(times, values, color=LINE)
     label = f"mean {mean:.3g} {unit}".replace("-", "−").strip()
     axes.axhline(mean, color=MEAN, ls="--", lw=1.2, label=label)
+    show_no_round_off(axes, size)
     axes.legend(frameon=False, fontsize="small", loc="best", handlelength=1.8, borderaxespad=0.2)

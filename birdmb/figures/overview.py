@@ -32,7 +32,7 @@ def plot_overview(cycle: FlightCycle) -> Figure:
     *loads, power = middle.subplots(4, 1, sharex=True)
     draw_loads(loads, cycle)
     draw_wing_power(power, cycle)
-    label_beat(power)
+    label_beat(power, cycle)
     middle.align_ylabels()
     circle, numbers = right.subplots(2, 1, height_ratios=(1.7, 1))
     draw_labelled_multipliers(circle, cycle)

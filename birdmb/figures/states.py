@@ -8,7 +8,15 @@ import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
 from birdmb._typing import FloatArray
-from birdmb.figures.style import DRIVER, LINE, beat_axis, label_beat, symbol, title_of
+from birdmb.figures.style import (
+    DRIVER,
+    LINE,
+    beat_axis,
+    label_beat,
+    show_no_round_off,
+    symbol,
+    title_of,
+)
 from birdmb.quantities import IN_DEGREES
 from birdmb.text import in_figure
 from birdmb.topology.joints import split_side
@@ -44,11 +52,12 @@ def draw_states(figure: Figure | SubFigure, cycle: FlightCycle) -> None:
         if driver is not None:
             ax.plot(cycle.beat.times, scale * driver, "--", color=DRIVER, lw=1.2, label="driver")
         ax.plot(cycle.beat.times, scale * cycle.beat.states[:, at], color=LINE, label="state")
+        show_no_round_off(ax, scale * float(cycle.model.state_scale[at]))
         ax.set_ylabel(f"{_label(name)} ({IN_DEGREES.get(unit, unit)})")
         if driver is not None and not name.endswith(_RATE):
             ax.legend(frameon=False, fontsize="small", loc="best", handlelength=1.8)
     for ax in axes[-2:]:
-        label_beat(ax)
+        label_beat(ax, cycle)
     figure.align_ylabels()
 
 

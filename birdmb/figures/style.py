@@ -26,6 +26,8 @@ BIFURCATION_MARKERS = {
     "multiple": "*",
 }
 _SHADE = "0.92"
+# Of the typical size of what is drawn; an axis over less shows the round-off of what is steady.
+_LEAST_RANGE = 1e-3
 
 # In place of "theta", say, as the text in a picture.
 _SYMBOLS = {"theta": "θ", "phi": "φ"}
@@ -52,6 +54,8 @@ def stroke_speed(cycle: FlightCycle) -> FloatArray:
 
 def downstrokes(cycle: FlightCycle) -> list[tuple[float, float]]:
     """Times (start, end) s in the beat between which the wings go down."""
+    if holds_still(cycle):
+        return []
     times, speed = cycle.beat.times, stroke_speed(cycle)
     down = speed > 0
     turns = np.flatnonzero(down[1:] != down[:-1])
@@ -70,6 +74,21 @@ def beat_axis(axes: Axes, cycle: FlightCycle) -> None:
     axes.margins(y=0.08)
 
 
-def label_beat(axes: Axes) -> None:
+def label_beat(axes: Axes, cycle: FlightCycle) -> None:
     """Write under an axis over the beat what it shows."""
-    axes.set_xlabel("time (s), downstroke shaded")
+    glides = holds_still(cycle)
+    axes.set_xlabel("time (s)" if glides else "time (s), downstroke shaded")
+
+
+def holds_still(cycle: FlightCycle) -> bool:
+    """Whether the wings keep their shape over the whole beat, as in gliding."""
+    return not cycle.beat.joint_rates.any()
+
+
+def show_no_round_off(axes: Axes, size: float) -> None:
+    """Widen the y axis where its data vary by next to nothing of a typical size."""
+    low, high = axes.get_ylim()
+    missing = _LEAST_RANGE * size - (high - low)
+    if missing > 0.0:
+        axes.set_ylim(low - 0.5 * missing, high + 0.5 * missing)
+        axes.ticklabel_format(axis="y", useOffset=False)

@@ -41,7 +41,7 @@ def plot_tunnel_and_free_flight(cycle: FlightCycle) -> Figure:
         axes.set_ylim(low, high + 0.25 * (high - low))  # room for the legend
         axes.legend(frameon=False, fontsize="small", loc="upper center", ncols=2)
     for axes in panels[-1]:
-        label_beat(axes)
+        label_beat(axes, cycle)
     figure.align_ylabels()
     figure.suptitle(
         f"{title_of(cycle)}: body held at its mean state, and free (weight dotted)",

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure, SubFigure
 from matplotlib.lines import Line2D
 
 from birdmb._typing import FloatArray
-from birdmb.figures.style import stroke_speed, title_of
+from birdmb.figures.style import holds_still, stroke_speed, title_of
 from birdmb.wing.outline import WingOutline, wing_outline
 
 if TYPE_CHECKING:
@@ -27,8 +27,9 @@ _MIRROR = np.array([1.0, -1.0, 1.0])
 _SIDES = (np.ones(3), _MIRROR)
 # Slower than this part of the fastest stroke, the wings are turning round.
 _TURNING = 0.35
-# Between drawings, m.
-_GAP = 0.16
+# Of the widest drawing: what is left between two of them, and the longest scale bar.
+_GAP = 0.12
+_LONGEST_BAR = 0.2
 
 _Style = dict[str, Any]
 _BONE: _Style = {"color": "k", "lw": 1.8, "marker": "o", "ms": 2.6, "solid_capstyle": "round"}
@@ -106,8 +107,8 @@ def draw_wing_phases(figure: Figure | SubFigure, cycle: FlightCycle, views: Sequ
     axes.margins(0.01)
     axes.set_axis_off()
     boxes = [_box(view, poses) for view in views]
-    width = _GAP + max(right - left for (left, _), (right, _) in boxes)
-    top = 0.0
+    widest = max(right - left for (left, _), (right, _) in boxes)
+    gap, width, top = _GAP * widest, (1.0 + _GAP) * widest, 0.0
     for view, ((left, low), (right, high)) in zip(views, boxes, strict=True):
         for column, pose in enumerate(poses):
             middle = column * width - 0.5 * (left + right)
@@ -115,11 +116,11 @@ def draw_wing_phases(figure: Figure | SubFigure, cycle: FlightCycle, views: Sequ
         if len(views) > 1:
             place = (-0.5 * width, top - 0.5 * (high - low))
             axes.text(*place, view.name, rotation=90, ha="right", va="center", color="0.3")
-        top -= high - low + _GAP
+        top -= high - low + gap
     for column, pose in enumerate(poses):
         title = f"t = {_fraction(pose.phase)}, {pose.motion}"
-        axes.text(column * width, 0.3 * _GAP, title, ha="center", va="bottom")
-    _scale_bar(axes, -0.5 * width, top + 0.3 * _GAP)
+        axes.text(column * width, 0.3 * gap, title, ha="center", va="bottom")
+    _scale_bar(axes, -0.5 * width, top + 0.3 * gap, _round_below(_LONGEST_BAR * widest))
     colours = ScalarMappable(norm, _COLOURS)
     bar = figure.colorbar(colours, ax=axes, label="circulation Γ (m²/s)", shrink=0.7, pad=0.01)
     # Zero is white on any scale; what does not occur need not be shown.
@@ -142,6 +143,8 @@ def _poses(cycle: FlightCycle) -> list[Pose]:
 
 
 def _motion(cycle: FlightCycle, t: float) -> str:
+    if holds_still(cycle):
+        return "gliding"
     speed = stroke_speed(cycle)
     now = float(np.interp(t, cycle.beat.times, speed)) / max(float(np.abs(speed).max()), 1e-12)
     if abs(now) >= _TURNING:
@@ -201,7 +204,7 @@ def _draw(axes: Axes, pose: Pose, view: View, norm: CenteredNorm, origin: FloatA
 def _legend() -> list[Line2D]:
     styles = {
         "bones": _BONE,
-        "feathers": _FEATHER,
+        "feathers or sections": _FEATHER,
         "leading and trailing edge": _EDGE,
         "lifting line": _LIFTING_LINE,
         "centre of mass of the body": _CENTRE,
@@ -209,6 +212,13 @@ def _legend() -> list[Line2D]:
     return [Line2D([], [], label=label, **style) for label, style in styles.items()]
 
 
-def _scale_bar(axes: Axes, x: float, y: float) -> None:
-    axes.plot([x, x + 0.25], [y, y], color="k", lw=2)
-    axes.text(x + 0.27, y, "0.25 m", ha="left", va="center", fontsize="small")
+def _scale_bar(axes: Axes, x: float, y: float, length: float) -> None:
+    axes.plot([x, x + length], [y, y], color="k", lw=2)
+    label = f"  {length:g} m"
+    axes.text(x + length, y, label, ha="left", va="center", fontsize="small")
+
+
+def _round_below(length: float) -> float:
+    """The largest of 1, 2 and 5 times a power of ten that is not more than a length."""
+    power = 10.0 ** np.floor(np.log10(length))
+    return float(power * max(digit for digit in (1.0, 2.0, 5.0) if digit * power <= length))

@@ -28,7 +28,8 @@ from birdmb.models.compiled_calls import COMPILED, Carrier, calls_compiled_code
 from birdmb.models.feather_rods import FeatherRod, feather_rods
 from birdmb.models.tree_coordinates import IN_PLANE
 from birdmb.models.tree_kernel import TreeLinks
-from birdmb.topology import BONES, Bird
+from birdmb.topology import Bird
+from birdmb.topology.attachments import steiner
 
 # Of the bird's own: a prescribed joint strays by one part of this, and round-off does not matter.
 _DRIVEN_INERTIA = 1e13
@@ -69,15 +70,11 @@ class _Link:
         joint_centre = (self.mass * self.centre + mass * centre) / total
         self.inertia = (
             self.inertia
-            + _steiner(self.mass, self.centre - joint_centre)
+            + steiner(self.mass, self.centre - joint_centre)
             + inertia
-            + _steiner(mass, centre - joint_centre)
+            + steiner(mass, centre - joint_centre)
         )
         self.mass, self.centre = total, joint_centre
-
-
-def _steiner(mass: float, r: FloatArray) -> FloatArray:
-    return mass * (float(r @ r) * np.eye(3) - np.outer(r, r))
 
 
 def _axis_frame(axis: FloatArray) -> FloatArray:
@@ -97,6 +94,7 @@ def bird_links(bird: Bird, body_coordinates: IntArray) -> list[_Link]:
 
     `body_coordinates` (B,) are those of `tree_coordinates.COORDINATES` that may move.
     """
+    bird = bird.assembled
     links: list[_Link] = []
     axes = np.eye(3)
     for coordinate in body_coordinates.tolist():
@@ -132,8 +130,7 @@ def _add_wing(
     parent, place, axes = carrier, body_frame.T @ root, body_frame.T
     handed = np.linalg.det(side)
     hinges = []
-    for bone in BONES:
-        segment = getattr(bird.segments, bone)
+    for bone, segment in bird.segments.items():
         for joint in bird.joints:
             if joint.segment != bone:
                 continue
@@ -154,7 +151,7 @@ def _add_wing(
                 hinge.add_body(
                     rod.mass,
                     0.5 * rod.length * rod_axis,
-                    _steiner(rod.mass, rod.length / np.sqrt(12.0) * rod_axis),
+                    steiner(rod.mass, rod.length / np.sqrt(12.0) * rod_axis),
                 )
                 hinges.append(hinge)
         place = place + axes @ side @ np.array([0.0, segment.length, 0.0])
@@ -335,7 +332,7 @@ class ExudynBird:
 
 def typical_inertias(bird: Bird, body_coordinates: IntArray, size: int) -> FloatArray:
     """Mass (kg) or moment of inertia (kg m2) that is typical of each coordinate, (size,)."""
-    length = sum(getattr(bird.segments, bone).length for bone in BONES)
+    length = sum(segment.length for _, segment in bird.segments.items())
     typical = np.full(size, bird.total_mass * length**2)
     typical[: np.count_nonzero(body_coordinates < len(_SLIDES))] = bird.total_mass
     return typical

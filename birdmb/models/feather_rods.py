@@ -8,7 +8,7 @@ import numpy as np
 
 from birdmb._typing import FloatArray
 from birdmb.errors import TopologyError
-from birdmb.topology import Bird, Bone
+from birdmb.topology import Bird
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.chain import joint_chain
 from birdmb.wing.edges import feather_ends
@@ -23,7 +23,7 @@ class FeatherRod(NamedTuple):
     The mass of a feather is spread evenly from root to tip.
     """
 
-    bone: Bone
+    bone: str
     root: FloatArray  # (3,) m, from the bone's root
     direction: FloatArray  # (3,) unit, from root to tip
     length: float  # m

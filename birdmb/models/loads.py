@@ -47,6 +47,8 @@ class WingLoads:
     """(N,) m, along the span."""
     force: FloatArray
     """(N, 3) N, profile drag included."""
+    moment: FloatArray
+    """(N, 3) N m, of the sections' profile, about the control points."""
     profile_drag: FloatArray
     """(N, 3) N."""
     circulation: FloatArray
@@ -74,7 +76,7 @@ class Loads:
     body_moment: FloatArray
     """(3,) N m, of the body, about G."""
     power: float
-    """W, that the wings' motion relative to the body takes: minus the sum of force . velocity."""
+    """W, that the wings' motion relative to the body takes: minus the work of force and moment."""
     right: WingLoads
     """Of the right wing."""
     left: WingLoads
@@ -105,7 +107,7 @@ class LoadsAlong:
     def power(self) -> FloatArray:
         """Power (K,) W that the wings' motion relative to the body takes."""
         right, left = (
-            (wing.force * wing.velocity).sum(axis=(1, 2))
+            (wing.force * wing.velocity + wing.moment * wing.spin).sum(axis=(1, 2))
             for wing in (self.stack.right, self.stack.left)
         )
         return np.asarray(-right - left)
@@ -148,7 +150,8 @@ class LoadsAlong:
             mirror = np.array([1.0, side, 1.0])
             moving = twists[:, :3] * mirror, twists[:, 3:] * mirror * side
             velocity = each.velocity + _point_velocity(*moving, each.position)
-            wing -= (each.force * velocity).sum(axis=(1, 2))
+            spin = each.spin + moving[1][:, None]
+            wing -= (each.force * velocity + each.moment * spin).sum(axis=(1, 2))
             profile -= (each.profile_drag * velocity).sum(axis=(1, 2))
         at_tail = np.broadcast_to([tail.x, 0.0, tail.z], (len(twists), 1, 3))
         tail_moves = _point_velocity(twists[:, :3], twists[:, 3:], at_tail)[:, 0]

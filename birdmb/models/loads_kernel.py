@@ -31,6 +31,8 @@ class StackedWing(NamedTuple):
     chord: FloatArray  # (K, N) m
     width: FloatArray  # (K, N) m
     force: FloatArray  # (K, N, 3) N, profile drag included
+    moment: FloatArray  # (K, N, 3) N m, of the profile about the control points
+    spin: FloatArray  # (K, N, 3) rad/s of what carries the loads, relative to the body
     profile_drag: FloatArray  # (K, N, 3) N
     circulation: FloatArray  # (K, N) m2/s
     angle_of_attack: FloatArray  # (K, N) rad, geometric
@@ -62,6 +64,8 @@ def _no_wing(count: int, n: int, joints: int) -> StackedWing:
         np.empty((count, n)),
         np.empty((count, n)),
         np.full((count, n, 3), np.nan),
+        np.full((count, n, 3), np.nan),
+        np.empty((count, n, 3)),
         np.full((count, n, 3), np.nan),
         np.full((count, n), np.nan),
         np.full((count, n), np.nan),
@@ -116,16 +120,16 @@ def loads_along(
         if not alike:
             shape = shape_at(shapes[1], shape_of[1, k])
             left = place_wing(joints, shape, rigid_joint_count, angles[k, 1], rates[k, 1])
-        _keep_wing(stack.right, k, right)
-        _keep_wing(stack.left, k, left)
+        _keep_wing(stack.right, k, right, rates[k, 0])
+        _keep_wing(stack.left, k, left, rates[k, 1])
         if not (stack.right.clearance[k] >= 0.0 and stack.left.clearance[k] >= 0.0):
             continue
         is_mirrored = bool(alike and twist[1] == 0.0 and twist[3] == 0.0 and twist[5] == 0.0)
         of_right, of_left = pair_loads(
-            right.elements, left.elements, is_mirrored, aero.density, aero.profile, twist
+            right.elements, left.elements, is_mirrored, aero.density, aero.profile_drag, twist
         )
-        _keep_loads(stack.right, k, of_right, torques(right.velocity_per_rate, of_right.force))
-        _keep_loads(stack.left, k, of_left, torques(left.velocity_per_rate, of_left.force))
+        _keep_loads(stack.right, k, of_right, torques(right.twist_per_rate, of_right.wrench))
+        _keep_loads(stack.left, k, of_left, torques(left.twist_per_rate, of_left.wrench))
         of_body = body_loads(aero, twist[:3])[:, 0]
         stack.body_force[k], stack.body_moment[k] = of_body[:3], of_body[3:]
         if tail.span > 0.0:
@@ -139,8 +143,8 @@ def loads_along(
             stack.tail_angle[k] = tail_angle(tail, wind[0], wind[2])
             stack.tail_downwash[k] = induced[1]
         wrench = pair_wrench(
-            wing_wrench(right.elements.position, of_right.force.reshape(n, 3, 1)),
-            wing_wrench(left.elements.position, of_left.force.reshape(n, 3, 1)),
+            wing_wrench(right.elements.position, of_right.wrench.reshape(n, 6, 1)),
+            wing_wrench(left.elements.position, of_left.wrench.reshape(n, 6, 1)),
         )[:, 0]
         fx, fy, fz = stack.tail_force[k]
         stack.force[k] = wrench[:3] + stack.tail_force[k] + stack.body_force[k]
@@ -152,8 +156,11 @@ def loads_along(
 
 
 @kernel
-def _keep_wing(stack: StackedWing, k: int, placed: PlacedWing) -> None:
+def _keep_wing(stack: StackedWing, k: int, placed: PlacedWing, rates: FloatArray) -> None:
     elements = placed.elements
+    stack.spin[k] = 0.0
+    for a in range(rates.size):
+        stack.spin[k] += rates[a] * placed.twist_per_rate[a, :, 3:]
     stack.position[k], stack.node[k] = elements.position, elements.node
     stack.velocity[k] = elements.velocity
     stack.chord[k], stack.width[k] = elements.chord, elements.width
@@ -162,6 +169,7 @@ def _keep_wing(stack: StackedWing, k: int, placed: PlacedWing) -> None:
 
 @kernel
 def _keep_loads(stack: StackedWing, k: int, loads: ElementLoads, about_joints: FloatArray) -> None:
-    stack.force[k], stack.profile_drag[k] = loads.force, loads.profile_drag
+    stack.force[k], stack.moment[k] = loads.wrench[:, :3], loads.wrench[:, 3:]
+    stack.profile_drag[k] = loads.profile_drag
     stack.circulation[k], stack.angle_of_attack[k] = loads.circulation, loads.angle_of_attack
     stack.speed[k], stack.joint_torques[k] = loads.speed, about_joints

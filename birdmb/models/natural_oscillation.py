@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from birdmb.models.feather_rods import feather_rods
-from birdmb.topology import BONES, SIDES, Bird, Joint
+from birdmb.topology import SIDES, Bird, Joint
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.chain import joint_chain
 
@@ -40,15 +40,18 @@ class NaturalOscillation:
 
 def joint_oscillation(bird: Bird, joint: Joint) -> NaturalOscillation:
     """Stiffness, damping and carried inertia of a compliant joint, drivers at their offsets."""
+    bird = bird.assembled
     angles = np.array([j.offset for j in bird.joints])
     wing = wing_arrays(bird)
     chain = joint_chain(wing, angles)
     number = bird.joint_names.index(joint.name)
     axis = chain.axis[number]
-    pivot = chain.origin[BONES.index(joint.segment)]
+    first = bird.segments.names.index(joint.segment)
+    pivot = chain.origin[first]
     inertia, largest = 0.0, 0.0
-    for i in range(BONES.index(joint.segment), len(BONES)):
-        segment = getattr(bird.segments, BONES[i])
+    for i, (_, segment) in enumerate(bird.segments.items()):
+        if i < first:
+            continue
         R = chain.rotation[i]
         lever = np.cross(axis, chain.origin[i] + R @ np.array(segment.centre_of_mass) - pivot)
         local = R.T @ axis

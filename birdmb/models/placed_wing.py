@@ -9,7 +9,7 @@ import numpy as np
 from birdmb._kernels import kernel
 from birdmb._typing import FloatArray
 from birdmb.aerodynamics.elements import Elements, place_elements
-from birdmb.aerodynamics.joints import velocity_per_joint_rate
+from birdmb.aerodynamics.joints import twist_per_joint_rate
 from birdmb.wing.arrays import JointArrays
 from birdmb.wing.chain import Chain, joint_chain
 from birdmb.wing.shape import WingShape, turned
@@ -21,7 +21,7 @@ class PlacedWing(NamedTuple):
     chain: Chain
     axes: FloatArray  # (3, 3) behind the joints that turn the wing as a whole, to body axes
     elements: Elements
-    velocity_per_rate: FloatArray  # (A, N, 3) m of the elements' loads, per joint's or hinge's rate
+    twist_per_rate: FloatArray  # (A, N, 6) m and 1, of the elements' loads, per angle's rate
 
 
 @kernel
@@ -40,12 +40,12 @@ def place_wing(
     axes = chain.frame[rigid_joint_count]
     placed = turned(shape, axes, spin_of(chain, rigid_joint_count, rates))
     elements = place_elements(placed, joints.root)
-    per_rate = np.empty((joints.angle_count, elements.chord.size, 3))
-    per_rate[: joints.segment.size] = velocity_per_joint_rate(
+    per_rate = np.empty((joints.angle_count, elements.chord.size, 6))
+    per_rate[: joints.segment.size] = twist_per_joint_rate(
         joints.root, joints.segment, chain, elements.position, placed.distal_fraction
     )
     if joints.segment.size < joints.angle_count:
-        per_rate[joints.segment.size :] = placed.hinge_velocity
+        per_rate[joints.segment.size :] = placed.hinge_twist
     return PlacedWing(chain, axes, elements, per_rate)
 
 

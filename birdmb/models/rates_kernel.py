@@ -18,7 +18,7 @@ from birdmb.aerodynamics.joints import torques_along
 from birdmb.aerodynamics.pair import circulations, pair_system, pair_wrench
 from birdmb.aerodynamics.tail import tail_influence
 from birdmb.aerodynamics.twist_loads import (
-    element_forces,
+    element_wrenches,
     mirrored,
     wing_flow,
     wing_wrench,
@@ -177,14 +177,14 @@ def air_forces(
     at_tail = tail_influence(tail, right.elements.node)
     at_tail_of_left = at_tail if is_mirrored else tail_influence(tail, left.elements.node)
     no_derivatives = np.empty(0, np.int64)
-    forces = np.empty((rows.size, unknowns, 3, 1))
+    wrenches = np.empty((rows.size, unknowns, 6, 1))
     for r in range(rows.size):
-        forces[r, :n] = _forces(aero, right, winds[r, :n], gamma[r, :n], y[r, :n], z[r, :n])
-        of_right_wing = wing_wrench(right.elements.position, forces[r, :n])
+        wrenches[r, :n] = _wrenches(aero, right, winds[r, :n], gamma[r, :n], y[r, :n], z[r, :n])
+        of_right_wing = wing_wrench(right.elements.position, wrenches[r, :n])
         of_left_wing = of_right_wing
         if not is_mirrored:
-            forces[r, n:] = _forces(aero, left, winds[r, n:], gamma[r, n:], y[r, n:], z[r, n:])
-            of_left_wing = wing_wrench(left.elements.position, forces[r, n:])
+            wrenches[r, n:] = _wrenches(aero, left, winds[r, n:], gamma[r, n:], y[r, n:], z[r, n:])
+            of_left_wing = wing_wrench(left.elements.position, wrenches[r, n:])
         induced = np.zeros((2, 1))
         if tail.span > 0.0:
             # In the plane of symmetry each wing induces half of what a pair of them would.
@@ -193,10 +193,10 @@ def air_forces(
         wrench += airframe_loads(aero, induced, motion.twist[rows[r]], no_derivatives)
         for b in range(body):
             loads[r, b] = wrench[directions[b], 0]
-    about_joints = torques_along(right.velocity_per_rate, forces[:, :n])
+    about_joints = torques_along(right.twist_per_rate, wrenches[:, :n])
     loads[:, body : body + joints] = constants.links.copies * about_joints
     if not is_mirrored:
-        loads[:, body + joints :] = torques_along(left.velocity_per_rate, forces[:, n:])
+        loads[:, body + joints :] = torques_along(left.twist_per_rate, wrenches[:, n:])
     return loads, distance
 
 
@@ -240,7 +240,7 @@ def _meet(
 
 
 @kernel
-def _forces(
+def _wrenches(
     aero: AeroConstants,
     placed: PlacedWing,
     wind: FloatArray,
@@ -248,7 +248,7 @@ def _forces(
     induced_y: FloatArray,
     induced_z: FloatArray,
 ) -> FloatArray:
-    """Forces (N, 3, 1) N on the elements of a wing in `wind` (N, 3, 1) m/s."""
-    return element_forces(
-        placed.elements, wind, circulation, induced_y, induced_z, aero.density, aero.profile
+    """Forces and moments (N, 6, 1) N and N m on the elements of a wing in `wind` (N, 3, 1) m/s."""
+    return element_wrenches(
+        placed.elements, wind, circulation, induced_y, induced_z, aero.density, aero.profile_drag
     )

@@ -30,7 +30,7 @@ def require_inertia(bird: Bird) -> None:
             "moments of inertia about the body's other axes (kg m2); give them in the topology "
             "file or with --set."
         )
-    if why := impossible_moments(bird.body.inertia_tensor):
+    if why := impossible_moments(bird.assembled.body.inertia_tensor):
         raise TopologyError(f"{bird.name}: of the body's inertia, {why}.")
 
 

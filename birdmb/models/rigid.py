@@ -59,7 +59,8 @@ def rigid_body(bird: Bird, motion: Motion) -> RigidBody:
     """The constants of a bird's motion; raises `TopologyError` as `require_inertia`."""
     if motion is not PLANAR:
         require_inertia(bird)
-    body, inertia = bird.body, bird.body.inertia_tensor
+    body = bird.assembled.body
+    inertia = body.inertia_tensor
     return RigidBody(
         body.mass,
         inertia,

@@ -31,8 +31,10 @@ def mean_trim(bird: Bird, wing: PrescribedWing, aero: AeroConstants) -> FloatArr
     `StateError` where the loads are out of all proportion.
     """
 
+    body = bird.assembled.body
+
     def imbalance(y: FloatArray) -> FloatArray:
-        weights = (bird.body.mass, bird.body.inertia_yy, bird.gravity)
+        weights = (body.mass, body.inertia_yy, bird.gravity)
         return np.asarray(_imbalance(wing, aero, *weights, y))
 
     def residual(y: FloatArray) -> FloatArray:

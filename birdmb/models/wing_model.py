@@ -77,7 +77,7 @@ class BirdModel(ABC):
     @property
     def mass(self) -> float:
         """Mass of all that flies, kg."""
-        return self.bird.body.mass
+        return self.bird.assembled.body.mass
 
     @abstractmethod
     def rhs(self, t: float, x: npt.ArrayLike) -> FloatArray:

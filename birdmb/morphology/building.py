@@ -28,7 +28,7 @@ from birdmb.morphology.solids import (
     rod,
 )
 from birdmb.topology import Bird
-from birdmb.topology.loading import read_document
+from birdmb.topology.documents import read_document
 from birdmb.topology.messages import validated
 
 _DIGITS = 12  # significant; the rest is round-off, which a file need not show
@@ -51,7 +51,7 @@ def bird_from_morphology(path: str | PathLike[str], like: Bird | None = None) ->
             sentence.
     """
     origin = str(path)
-    document = read_document(path)
+    _, document = read_document(path)
     measured = validated(Morphology, document, origin)
     if like is not None:
         flapping = like.model_dump(exclude_unset=True, include=set(_HOW_IT_FLAPS))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
+from contextlib import suppress
 
 import numpy as np
 
@@ -16,6 +17,8 @@ from birdmb.models.natural_oscillation import (
     oscillations_of,
 )
 from birdmb.models.rigid import RigidModel
+from birdmb.studies.driven_motion import is_still, motion_warnings
+from birdmb.studies.flight_regime import flight_regime, regime_warnings
 from birdmb.studies.refinement import LARGEST_CHANGE, LoadChange
 from birdmb.topology import SIDES, Bird, Joint
 from birdmb.wing.outline import wing_outline
@@ -26,7 +29,14 @@ _ROUND_OFF = 1e-9  # m
 
 def bird_warnings(bird: Bird) -> list[str]:
     """One sentence for each thing to beware of."""
-    each = (_on_surroundings(bird), _on_joints(bird), _on_hinges(bird), _on_wing(bird))
+    each = (
+        _on_surroundings(bird),
+        _on_joints(bird),
+        motion_warnings(bird),
+        _on_hinges(bird),
+        _on_wing(bird),
+        _on_regime(bird),
+    )
     # Both wings may give the same cause.
     return list(dict.fromkeys(itertools.chain.from_iterable(each)))
 
@@ -39,8 +49,8 @@ def _on_surroundings(bird: Bird) -> Iterator[str]:
 
 
 def _on_joints(bird: Bird) -> Iterator[str]:
-    if all(joint.on(side).amplitude == 0 for joint in bird.joints for side in SIDES):
-        yield "no joint has an amplitude: the bird glides, and its limit cycle is a steady flight."
+    if is_still(bird):
+        yield "no joint's driver moves: the bird glides, and its limit cycle is a steady flight."
     for joint in bird.joints:
         if joint.mode == "compliant":
             for name, free in oscillations_of(bird, joint).items():
@@ -90,16 +100,25 @@ def _on_wing(bird: Bird) -> Iterator[str]:
         yield from _on_overlap(bird, model, phases)
 
 
+def _on_regime(bird: Bird) -> Iterator[str]:
+    with suppress(StateError):  # of which `_on_wing` tells
+        yield from regime_warnings(flight_regime(bird))
+
+
 def _on_overlap(bird: Bird, model: RigidModel, phases: FloatArray) -> Iterator[str]:
     numbers = bird.wing.resolved_discretisation
-    names = [f"the tip of feather {feather.name}" for feather in bird.feathers]
-    names += ["the shoulder", "the elbow", "the wrist", "the tip of the hand"]
+    chords = [f"feather {f.name}" for f in bird.feathers] + [
+        f"section {s.name}" for s in bird.sections
+    ]
+    ends = ("root", "tip") if bird.feathers else ("leading end", "trailing end")
+    names = [f"the {end} of {chord}" for end in ends for chord in chords]
+    names += ["the shoulder", *(f"the end of the {bone}" for bone in bird.segments.names)]
     places = []
     for phase in phases:
         outline = wing_outline(
             model.wing, driver_motion(model.wing, phase * bird.period)[0], numbers
         )
-        places.append([*outline.feathers[:, 1, 1], *outline.bones[:, 1]])
+        places.append([*outline.feathers[:, :, 1].T.ravel(), *outline.bones[:, 1]])
     across = np.array(places)
     k, i = np.unravel_index(np.argmin(across), across.shape)
     if across[k, i] < -_ROUND_OFF:

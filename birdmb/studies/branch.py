@@ -27,6 +27,7 @@ from birdmb.quantities import Quantity, quantities
 from birdmb.studies.relevance import check_relevant
 from birdmb.studies.validity import Validity, assess_validity
 from birdmb.topology import Bird
+from birdmb.topology.roles import flap_joint
 
 FamilyModel: TypeAlias = Callable[..., FlightModel]
 """Makes a model of a bird: `MultibodyModel`, `RigidModel`, or either with options bound."""
@@ -92,7 +93,7 @@ def bird_branch(
     Returns:
         The branch. Observables of its points, in SI units and rad (`OBSERVABLE_UNITS`): mean
         `mean_speed`, `mean_climb_rate`, `power` and `mean_pitch` over a beat, `highest_flap` and
-        `lowest_flap` that the joint `shoulder.flap` reaches (where the bird has one), how far the
+        `lowest_flap` that the joint reaches that flaps (`flap_joint`, if there is one), how far the
         flight is from the limits of the model (`largest_angle_of_attack`, `reduced_frequency`, see
         `assess_validity`), and `integration_error` (see `FlightCycle`). Its `settings` say which
         bird this is (`fingerprint`, that at the start of the range) and how it was computed.
@@ -219,8 +220,8 @@ def flight_observables(bird: Bird) -> dict[str, Callable[[LimitCycle], float]]:
     Functions of the limit cycle, in the units of `OBSERVABLE_UNITS`.
     """
     found: dict[str, Callable[[FlightCycle], float]] = {each.name: each.of for each in _RECORDED}
-    if "shoulder.flap" in bird.joint_names:
-        joint = bird.joint_names.index("shoulder.flap")
+    if (flapping := flap_joint(bird)) is not None:
+        joint = bird.joint_names.index(flapping.name)
         found["highest_flap"] = lambda cycle: float(_angles(cycle, joint).max())
         found["lowest_flap"] = lambda cycle: float(_angles(cycle, joint).min())
     validity = _LastValidity()

@@ -12,7 +12,7 @@ from birdmb.errors import ArgumentError, TopologyError
 from birdmb.models import BirdModel, RigidModel
 from birdmb.studies.cycles import ModelFactory
 from birdmb.topology import Bird
-from birdmb.topology.parts import BONES
+from birdmb.topology.attachments import BODY
 from birdmb.topology.unused import SPRING, own_names, unused_values
 from birdmb.topology.values import named_places, of_a_side
 
@@ -77,8 +77,14 @@ def ignored_values(bird: Bird, model: ModelFactory) -> dict[str, str]:
         names[f"{joint.name}.mode"] = springs
     names |= {
         f"segments.{bone}.{key}": mass
-        for bone in BONES
+        for bone in bird.segments.names
         for key in ("mass", "inertia", "centre_of_mass")
+    }
+    names |= {
+        f"attachments.{one.name}.{key}": mass
+        for one in bird.attachments
+        if one.on != BODY
+        for key in ("mass", "inertia", "position")
     }
     for feather in bird.hinged_feathers:  # a hinge stands at its rest
         names |= {f"{feather.hinge_name}.{key}": springs for key in ("stiffness", "damping")}

@@ -18,15 +18,12 @@ from birdmb.models import FlightCycle, RigidModel
 from birdmb.orbits import FloquetResult
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.errors import TrimError
+from birdmb.studies.trim_defaults import default_parameters
 from birdmb.studies.trim_search import TrimSearch
 from birdmb.topology import Bird
 
 _STEPS = 25
 _GRID = 9
-DEFAULT_PARAMETERS = {
-    "forearm.roll.offset_deg": (-30.0, 30.0),
-    "shoulder.flap.amplitude_deg": (15.0, 70.0),
-}
 _DIFFERENCE = 1e-5  # of the distance between the bounds; cycles are known to about 1e-9
 
 
@@ -89,7 +86,8 @@ def trim_flight(
     Args:
         bird: the bird.
         parameters: bounds (lowest, highest) by dotted name; one parameter, or two with `speed`. By
-            default the offset of forearm.roll, and the flap amplitude.
+            default the offset of the joint that turns the chords (forearm.roll of the ibis), and
+            the amplitude of the one that flaps.
         climb_rate: wanted mean climb rate, m/s, upwards positive; 0 is level flight.
         speed: wanted mean speed (`FlightCycle.mean_speed`), m/s.
         model: makes the model of a bird, as `RigidModel` and `MultibodyModel` do.
@@ -98,13 +96,14 @@ def trim_flight(
         search: what else `find_limit_cycle` takes for each of the cycles.
 
     Raises:
-        ArgumentError: not as many parameters as targets, or bounds in the wrong order.
+        ArgumentError: not as many parameters as targets, bounds in the wrong order, or no
+            parameters given for a bird that has none by default.
         TopologyError: an unknown name, or a bound that is no possible value.
         TrimError: no trim was found within the bounds; it says what was reached.
     """
     targets = {"climb_rate": climb_rate} | ({} if speed is None else {"speed": speed})
     if parameters is None:
-        parameters = dict(list(DEFAULT_PARAMETERS.items())[: len(targets)])
+        parameters = default_parameters(bird, len(targets))
     if len(parameters) != len(targets):
         raise ArgumentError(
             f"{len(targets)} target(s) ({', '.join(targets)}) need as many parameters, "

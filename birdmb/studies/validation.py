@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
@@ -44,12 +43,12 @@ class Comparison:
         return self.computed[quantity] - self.case.published[quantity]
 
 
-def published_cases(topologies: Path) -> list[Case]:
-    """The cases of chapters 5 to 8 and appendix A; `topologies` holds the shipped birds."""
+def published_cases() -> list[Case]:
+    """The cases of chapters 5 to 8 and appendix A, flown by the birds of the package."""
 
     def bird(name: str, **values: object) -> Bird:
         changes = {key.replace("__", "."): value for key, value in values.items()}
-        return load_bird(topologies / f"{name}.toml").with_values(changes)
+        return load_bird(name).with_values(changes)
 
     thesis = dict(zip(_STATES, (18.24, -1.93, -0.10, -0.115), strict=True)) | {
         "multiplier 1": 1.40,
@@ -59,7 +58,7 @@ def published_cases(topologies: Path) -> list[Case]:
     }
     at_4347 = dict(zip(_STATES, (18.511, -2.110, -0.118, -0.1164), strict=True))
     multibody = dict(zip(_STATES, (18.516, -2.102, -0.120, -0.1161), strict=True))
-    rigid = "birdmb cycle topologies/ibis.toml --model rigid"
+    rigid = "birdmb cycle ibis --model rigid"
     published = {"wing__discretisation": "published"}
     amplitude = {"shoulder__flap__amplitude_deg": 43.47}
     return [
@@ -83,13 +82,13 @@ def published_cases(topologies: Path) -> list[Case]:
         ),
         Case(
             "chapter 6, tail 40 deg open, level, tail at 2 deg to the body",
-            "birdmb trim topologies/ibis_tail.toml --model rigid",
+            "birdmb trim ibis_tail --model rigid",
             _CHAPTER_6,
             lambda: _with_tail(bird("ibis_tail")),
         ),
         Case(
             "chapter 6, tail along the body, without downwash, published discretisation",
-            "birdmb trim topologies/ibis_tail.toml --model rigid --set tail.incidence_deg=0 "
+            "birdmb trim ibis_tail --model rigid --set tail.incidence_deg=0 "
             "--set tail.downwash=none --set wing.discretisation=published",
             _CHAPTER_6,
             lambda: _with_tail(
@@ -104,11 +103,11 @@ def published_cases(topologies: Path) -> list[Case]:
         ),
         Case(
             "chapter 7, multibody bird with wings of 1e-5 kg, published discretisation",
-            "birdmb cycle topologies/ibis_massless.toml --set wing.discretisation=published",
+            "birdmb cycle ibis_massless --set wing.discretisation=published",
             multibody,
             lambda: _orbit(MultibodyModel(bird("ibis_massless", **published))),
         ),
-        *_chapter_8(topologies),
+        *_chapter_8(),
         *_appendix_a(),
     ]
 
@@ -156,7 +155,7 @@ def _with_tail(bird: Bird) -> Quantities:
     return dict(zip(_CHAPTER_6, values, strict=True))
 
 
-def _chapter_8(topologies: Path) -> Iterator[Case]:
+def _chapter_8() -> Iterator[Case]:
     numbers = {
         (20, 0.2): (1.37, 1.42, 7.41),
         (15, 0.2): (1.31, 0.25, 8.90),
@@ -167,7 +166,7 @@ def _chapter_8(topologies: Path) -> Iterator[Case]:
     for (k, c), published in numbers.items():
 
         def computed(k: float = k, c: float = c) -> Quantities:
-            bird = load_bird(topologies / "ibis_thesis_ch8.toml")
+            bird = load_bird("ibis_thesis_ch8")
             bird = bird.with_joint("shoulder.flap", stiffness=k, damping=c)
             flight = find_limit_cycle(MultibodyModel(bird))
             values = (abs(flight.multipliers[0]), flight.power, flight.potential_power)
@@ -175,7 +174,7 @@ def _chapter_8(topologies: Path) -> Iterator[Case]:
 
         yield Case(
             f"chapter 8, k = {k} N m/rad, C = {c} N m s/rad, 0.002 kg m2 a segment",
-            "birdmb cycle topologies/ibis_thesis_ch8.toml "
+            "birdmb cycle ibis_thesis_ch8 "
             f"--set shoulder.flap.stiffness={k} --set shoulder.flap.damping={c}",
             dict(zip(_CHAPTER_8, published, strict=True)),
             computed,

@@ -1,34 +1,33 @@
 """The bird as data: topology files, their validation, and dotted names for every value."""
 
 from birdmb.topology.airframe import Apex, Drag, Tail
-from birdmb.topology.bird import Bird, Segments
+from birdmb.topology.attachments import Attachment
+from birdmb.topology.bird import Bird
+from birdmb.topology.feathers import Feather, Hinge
 from birdmb.topology.joints import SIDES, Joint, JointSide
 from birdmb.topology.loading import load_bird
 from birdmb.topology.parts import (
-    BONES,
     PRESETS,
     Air,
     Body,
-    Bone,
     Discretisation,
-    Feather,
     Gait,
-    Hinge,
+    Profile,
     Root,
-    Segment,
     Wing,
 )
+from birdmb.topology.sections import Section
+from birdmb.topology.segments import Segment, Segments
 from birdmb.topology.values import parse_assignment
 
 __all__ = [
-    "BONES",
     "PRESETS",
     "SIDES",
     "Air",
     "Apex",
+    "Attachment",
     "Bird",
     "Body",
-    "Bone",
     "Discretisation",
     "Drag",
     "Feather",
@@ -36,7 +35,9 @@ __all__ = [
     "Hinge",
     "Joint",
     "JointSide",
+    "Profile",
     "Root",
+    "Section",
     "Segment",
     "Segments",
     "Tail",

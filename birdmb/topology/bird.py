@@ -4,44 +4,43 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise
-from typing import Any, Self
+from os import PathLike
+from pathlib import Path
+from typing import Any, Self, TypeVar
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from birdmb.errors import TopologyError
 from birdmb.topology.airframe import Drag, Tail
+from birdmb.topology.attachments import BODY, Attachment, body_with, segment_with
+from birdmb.topology.feathers import Feather
 from birdmb.topology.joints import Joint, Side
 from birdmb.topology.messages import Location, nearest, problem, shown, validated
 from birdmb.topology.names import Label
 from birdmb.topology.numbers import Gravity
 from birdmb.topology.parts import (
-    BONES,
     Air,
     Body,
-    Feather,
     Gait,
     Part,
-    Segment,
     Wing,
 )
+from birdmb.topology.sections import Section
+from birdmb.topology.segments import Segments
 from birdmb.topology.values import is_resolution, named_places, place_of, put_values, value_at
+from birdmb.topology.writing import write_bird
 
-
-class Segments(Part):
-    """The three segments of a wing, from the shoulder outwards."""
-
-    humerus: Segment = Field(description="upper arm, shoulder to elbow, a table")
-    forearm: Segment = Field(description="forearm, elbow to wrist, a table")
-    hand: Segment = Field(description="hand, wrist to tip, a table")
+ChordT = TypeVar("ChordT", Feather, Section)
 
 
 class Bird(Part):
-    """A bird with its gait: body, two mirror-image wings, tail, joints in order, feathers, air.
+    """A bird with its gait: body, two mirror-image wings, tail, joints in order, air.
 
-    Lengths in m, masses in kg, angles in rad. A variation is a new bird, see `with_values`.
+    A wing is a chain of segments, spanned by feathers or by sections along its bones. Lengths in m,
+    masses in kg, angles in rad. A variation is a new bird, see `with_values`.
     `Bird.model_validate(dict)` raises pydantic's own error, `load_bird` and the variations
     `TopologyError`.
     """
@@ -52,17 +51,30 @@ class Bird(Part):
     gait: Gait = Field(description="gait, a table")
     body: Body = Field(description="body without its wings, a table")
     wing: Wing = Field(description="attachment and discretisation of the wing, a table")
-    segments: Segments = Field(description="segments humerus, forearm and hand, tables")
+    segments: Segments = Field(
+        description="segments of a wing from the shoulder outwards, a table each, as "
+        "[segments.humerus]"
+    )
     joints: tuple[Joint, ...] = Field(description="joints from the body outwards, in order")
     feathers: tuple[Feather, ...] = Field(
-        description="feathers that span the wing, one at the shoulder and one at the hand's tip"
+        default=(),
+        description="feathers that span the wing, one at the shoulder and one at the last "
+        "segment's end; or else sections do",
+    )
+    sections: tuple[Section, ...] = Field(
+        default=(),
+        description="sections that span the wing in place of feathers, one at the shoulder and one "
+        "at the last segment's end",
+    )
+    attachments: tuple[Attachment, ...] = Field(
+        default=(), description="further rigid bodies on the body or on segments"
     )
     tail: Tail | None = Field(default=None, description="tail, a table; none if left out")
     drag: Drag = Field(default=Drag(), description="drag besides the induced one, a table")
 
     @field_validator("joints")
     @classmethod
-    def _chain(cls, joints: tuple[Joint, ...]) -> tuple[Joint, ...]:
+    def _chain(cls, joints: tuple[Joint, ...], info: ValidationInfo) -> tuple[Joint, ...]:
         if twice := _first_repeated(joint.name for joint in joints):
             raise problem(f"two joints are called {shown(twice)}; each needs a name of its own")
         for joint in joints:
@@ -70,8 +82,12 @@ class Bird(Part):
                 raise problem(
                     f"{shown(joint.name)} must not start with {place}, a table of the file"
                 )
+        if (known := _segment_names(info)) is None:
+            return joints
+        for i, joint in enumerate(joints):
+            _require_segment(joint.segment, known, i, "segment")
         for inner, outer in pairwise(joints):
-            if BONES.index(outer.segment) < BONES.index(inner.segment):
+            if known.index(outer.segment) < known.index(inner.segment):
                 raise problem(
                     f"{shown(outer.name)} (on the {outer.segment}) is listed after "
                     f"{shown(inner.name)} (on the {inner.segment}); "
@@ -81,31 +97,59 @@ class Bird(Part):
 
     @field_validator("feathers")
     @classmethod
-    def _from_shoulder_to_tip(cls, feathers: tuple[Feather, ...]) -> tuple[Feather, ...]:
-        if twice := _first_repeated(feather.name for feather in feathers):
-            raise problem(f"two feathers are called {shown(twice)}; each needs a name of its own")
-        ordered = tuple(sorted(feathers, key=lambda feather: feather.place))
-        for inner, outer in pairwise(ordered):
-            if inner.place == outer.place:
-                raise problem(
-                    f"{shown(inner.name)} and {shown(outer.name)} have the same place; "
-                    "each feather needs a place of its own"
-                )
-        if not ordered or ordered[0].place != 0:
-            raise problem("none is at the shoulder; one must be (bone humerus, position 0)")
-        if ordered[-1].place != len(BONES):
-            raise problem("none is at the hand's tip; one must be (bone hand, position 1)")
+    def _feathers_to_the_tip(
+        cls, feathers: tuple[Feather, ...], info: ValidationInfo
+    ) -> tuple[Feather, ...]:
+        return _from_shoulder_to_tip(feathers, "feather", _segment_names(info))
+
+    @field_validator("sections")
+    @classmethod
+    def _sections_to_the_tip(
+        cls, sections: tuple[Section, ...], info: ValidationInfo
+    ) -> tuple[Section, ...]:
+        ordered = _from_shoulder_to_tip(sections, "section", _segment_names(info))
+        for section in ordered[:-1]:
+            if section.chord == 0:
+                text = "must be more than 0; only the section at the wing's tip may be a point"
+                raise problem(text, sections.index(section), "chord")
         return ordered
+
+    @field_validator("attachments")
+    @classmethod
+    def _on_what_there_is(
+        cls, attachments: tuple[Attachment, ...], info: ValidationInfo
+    ) -> tuple[Attachment, ...]:
+        if twice := _first_repeated(one.name for one in attachments):
+            raise problem(f"two are called {shown(twice)}; each needs a name of its own")
+        if (known := _segment_names(info)) is not None:
+            for i, one in enumerate(attachments):
+                _require_segment(one.on, (BODY, *known), i, "on")
+        return attachments
+
+    @model_validator(mode="after")
+    def _wing_is_spanned(self) -> Self:
+        if self.feathers and self.sections:
+            raise problem("given beside feathers; keep one of the two to span the wing", "sections")
+        if not (self.feathers or self.sections):
+            raise problem(
+                "missing; a wing is spanned by [[feathers]] or by [[sections]]", "feathers"
+            )
+        skin = self.wing.propatagium
+        if skin is not None and skin not in self.segments:
+            raise problem(_no_segment(skin, self.segments.names), "wing", "propatagium")
+        return self
 
     @model_validator(mode="after")
     def _shares_are_of_joints(self) -> Self:
-        for feather in self.feathers:
+        for i, feather in enumerate(self.feathers):
             for joint, _ in feather.shares:
                 if joint not in self.joint_names:
                     raise problem(
                         f"no joint is called {shown(joint)}; "
                         f"the nearest: {nearest(joint, self.joint_names)}",
-                        f"feathers.{feather.name}.shares",
+                        "feathers",
+                        i,
+                        "shares",
                     )
         return self
 
@@ -147,10 +191,44 @@ class Bird(Part):
 
     @property
     def total_mass(self) -> float:
-        """Mass of the body and both wings with their hinged feathers, kg."""
-        one_wing = self.segments.humerus.mass + self.segments.forearm.mass + self.segments.hand.mass
+        """Mass of the body and both wings with their hinged feathers and attachments, kg."""
+        one_wing = sum(segment.mass for _, segment in self.segments.items())
         one_wing += sum(feather.hinge.mass for feather in self.feathers if feather.hinge)
-        return self.body.mass + 2 * one_wing
+        one_wing += sum(one.mass for one in self.attachments if one.on != BODY)
+        on_body = sum(one.copies * one.mass for one in self.attachments if one.on == BODY)
+        return self.body.mass + on_body + 2 * one_wing
+
+    @property
+    def assembled(self) -> Bird:
+        """The same bird with all attachments made part of body and segments.
+
+        The body's centre of mass, from which the shoulder and the tail are measured, is then that
+        of the body with all that is attached to it.
+        """
+        if not self.attachments:
+            return self
+        carriers: dict[str, list[Attachment]] = {}
+        for one in self.attachments:
+            carriers.setdefault(one.on, []).append(one)
+        body, moved = body_with(self.body, carriers.get(BODY, []))
+        ahead, below = float(moved[0]), float(moved[2])
+        root = self.wing.root
+        root = root.model_copy(update={"x": root.x - ahead, "z": root.z - below})
+        segments = {
+            name: segment_with(segment, carriers[name]) if name in carriers else segment
+            for name, segment in self.segments.items()
+        }
+        joined: dict[str, Any] = {
+            "body": body,
+            "wing": self.wing.model_copy(update={"root": root}),
+            "segments": Segments(segments),
+            "attachments": (),
+        }
+        if self.tail is not None:
+            apex = self.tail.apex
+            apex = apex.model_copy(update={"x": apex.x - ahead, "z": apex.z - below})
+            joined["tail"] = self.tail.model_copy(update={"apex": apex})
+        return self.model_copy(update=joined)
 
     def joint(self, name: str) -> Joint:
         """Return the joint of that name; raise `TopologyError` if there is none."""
@@ -170,10 +248,11 @@ class Bird(Part):
         go before these.
         """
         own = dict(feather.shares)
-        bone = BONES.index(feather.bone)
+        names = self.segments.names
+        bone = names.index(feather.bone)
 
         def default(joint: Joint) -> float:
-            carried = BONES.index(joint.segment)
+            carried = names.index(joint.segment)
             if joint.twist and carried == bone:
                 return feather.position
             return 1.0 if carried <= bone else 0.0
@@ -219,6 +298,32 @@ class Bird(Part):
         self.joint(name)
         return self.with_values({f"{name}.{key}": value for key, value in values.items()})
 
+    def save(
+        self,
+        path: str | PathLike[str],
+        *,
+        like: str | PathLike[str] | None = None,
+        about: Sequence[str] = (),
+    ) -> Path:
+        """Write a topology file that `load_bird` reads as this bird.
+
+        A file that is there is replaced once the new one is whole.
+
+        Args:
+            path: the file to write.
+            like: the topology file, perhaps the same, whose comments, order and typed values are
+                kept; only what is another value in this bird is changed.
+            about: lines of comment to put at the top.
+
+        Returns:
+            The path.
+
+        Raises:
+            OutputError: the file cannot be written.
+            TopologyError: `like` is no topology file, or its text cannot be kept.
+        """
+        return write_bird(self, path, about, like)
+
     def fingerprint(self) -> str:
         """Return a SHA-256 hash of all values, in hexadecimal, the same in any process.
 
@@ -235,6 +340,50 @@ class Bird(Part):
         if resolved:
             document["wing"]["discretisation"] = self.wing.resolved_discretisation.model_dump()
         return document
+
+
+def _segment_names(info: ValidationInfo) -> tuple[str, ...] | None:
+    """Names of the segments, or `None` where something is wrong with these."""
+    segments: Segments | None = info.data.get("segments")
+    return None if segments is None else segments.names
+
+
+def _no_segment(name: str, known: Sequence[str]) -> str:
+    return f"no segment is called {shown(name)}; the nearest: {nearest(name, known)}"
+
+
+def _require_segment(name: str, known: Sequence[str], item: int, key: str) -> None:
+    if name not in known:
+        raise problem(_no_segment(name, known), item, key)
+
+
+def _from_shoulder_to_tip(
+    chords: tuple[ChordT, ...], kind: str, segments: tuple[str, ...] | None
+) -> tuple[ChordT, ...]:
+    """Feathers or sections in their order along the wing, which must reach from end to end."""
+    if twice := _first_repeated(one.name for one in chords):
+        raise problem(f"two {kind}s are called {shown(twice)}; each needs a name of its own")
+    if segments is None or not chords:
+        return chords
+    for i, one in enumerate(chords):
+        _require_segment(one.bone, segments, i, "bone")
+
+    def place(one: ChordT) -> float:
+        return segments.index(one.bone) + one.position
+
+    ordered = tuple(sorted(chords, key=place))
+    for inner, outer in pairwise(ordered):
+        if place(inner) == place(outer):
+            raise problem(
+                f"{shown(inner.name)} and {shown(outer.name)} have the same place; "
+                f"each {kind} needs a place of its own"
+            )
+    if place(ordered[0]) != 0:
+        raise problem(f"none is at the shoulder; one must be (bone {segments[0]}, position 0)")
+    if place(ordered[-1]) != len(segments):
+        last = segments[-1]
+        raise problem(f"none is at the {last}'s tip; one must be (bone {last}, position 1)")
+    return ordered
 
 
 def _first_repeated(names: Iterable[str]) -> str | None:

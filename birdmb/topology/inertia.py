@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from contextlib import suppress
 from functools import lru_cache
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
+from pydantic import WithJsonSchema
+from pydantic.config import JsonDict
 
 from birdmb._typing import FloatArray
 from birdmb.topology.messages import problem, shown
 from birdmb.topology.numbers import LEAST_INERTIA, Moment
 
 _Row = tuple[Moment, Moment, Moment]
-Tensor = tuple[_Row, _Row, _Row]
+_THREE: JsonDict = {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}
+_FORMS: JsonDict = {"anyOf": [_THREE, {**_THREE, "items": _THREE}]}  # in a file
+Tensor = Annotated[tuple[_Row, _Row, _Row], WithJsonSchema(_FORMS)]
 
 _ROUND_OFF = 1e-9  # relative; inertia tensors are often typed with few digits
 
@@ -48,6 +52,17 @@ def moments_by_key(value: Any) -> dict[str, Any]:
         "inertia_zz": rows[2][2],
         "inertia_xz": rows[0][2],
     }
+
+
+def tell_of_tensor(schema: JsonDict) -> None:
+    """Put into the JSON schema of a body that `inertia` may stand for its moments by key."""
+    properties, required = schema["properties"], schema["required"]
+    assert isinstance(properties, dict)
+    assert isinstance(required, list)
+    about = "all of the inertia tensor, kg m2: three moments about x, y, z or a 3x3 tensor"
+    properties["inertia"] = {"description": about, **_FORMS}
+    required.remove("inertia_yy")
+    schema["oneOf"] = [{"required": ["inertia_yy"]}, {"required": ["inertia"]}]
 
 
 # Of birds that are varied by the thousand, the same few tensors are checked again and again.

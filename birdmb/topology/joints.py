@@ -18,7 +18,7 @@ from pydantic import (
 from birdmb.topology.messages import problem, shown
 from birdmb.topology.names import Label
 from birdmb.topology.numbers import Angle, Direction, Stiffness
-from birdmb.topology.parts import NO_DIRECTION, Bone, Part
+from birdmb.topology.parts import NO_DIRECTION, Part
 
 Side = Literal["right", "left"]
 SIDES: tuple[Side, Side] = ("right", "left")
@@ -91,7 +91,7 @@ class Joint(Part):
     angles: ClassVar[tuple[str, ...]] = ("offset", "amplitude", "phase")
 
     name: Label = Field(description='name of the joint, "place.motion" such as "shoulder.flap"')
-    segment: Bone = Field(description="segment that the joint carries")
+    segment: Label = Field(description="segment that the joint carries")
     axis: tuple[Direction, Direction, Direction] = Field(
         description="direction of the axis, [x, y, z] in the parent's frame"
     )

@@ -7,7 +7,7 @@ import json
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, TypeVar, get_args
 
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel, RootModel, ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails, PydanticCustomError
 
@@ -38,12 +38,12 @@ _EXPECTED = {
 }
 
 
-def problem(text: str, key: str = "") -> PydanticCustomError:
+def problem(text: str, *keys: str | int) -> PydanticCustomError:
     """Return the error a validator raises to have `text` shown as it is.
 
-    `key` is the key inside the validated table that is to blame, if it is not the table itself.
+    `keys` lead from the validated table or list to what is to blame, if it is not all of it.
     """
-    return PydanticCustomError("problem", "{text}", {"text": text, "key": key})
+    return PydanticCustomError("problem", "{text}", {"text": text, "keys": keys})
 
 
 def shown(value: object) -> str:
@@ -116,8 +116,7 @@ def _location(detail: ErrorDetails, document: object) -> Location:
     parts = [p for p in detail["loc"] if not (isinstance(p, str) and p.startswith(BRANCH))]
     if detail["type"] == "missing" and isinstance(parts[-1], int):
         parts.pop()
-    if key := detail.get("ctx", {}).get("key"):
-        parts.append(key)
+    parts += detail.get("ctx", {}).get("keys", ())
     for part in parts[:-1]:
         document = _inside(document, part)
     last = parts[-1] if parts else ""
@@ -172,6 +171,9 @@ def _field(model: type[BaseModel], location: Location) -> tuple[type[BaseModel],
     owner, field = model, None
     for part in location:
         if isinstance(part, str):
+            if issubclass(model, RootModel):  # a table of parts by names of the user's
+                model = next(_models_in(model.model_fields["root"].annotation), model)
+                continue
             owner = model
             known = model.model_fields.get(part) or model.model_fields.get(
                 part.removesuffix("_deg")

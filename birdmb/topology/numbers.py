@@ -8,10 +8,13 @@ number: where it is allowed, it means that there is nothing of the kind.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Annotated
 
-from pydantic import AfterValidator, Field, Strict
-from pydantic_core import PydanticCustomError
+from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, Strict
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, PydanticCustomError
+from pydantic_core.core_schema import no_info_after_validator_function
 
 OUT_OF_RANGE = "out_of_range"
 
@@ -19,19 +22,43 @@ _SIZES = "wings span 0.1 mm to 1 km"
 _WEIGHTS = "birds weigh 1e-9 to 1e5 kg"
 
 
-def _within(low: float, high: float, why: str, *, or_zero: bool = False) -> AfterValidator:
+@dataclass(frozen=True)
+class _Range:
     """A check that a number is from `low` to `high`, or else 0 if that is allowed.
 
     `why` is a reason for the user, who gets a sentence from `birdmb.topology.messages`.
     """
-    wanted = f"{'0 or ' if or_zero else ''}{low:g} to {high:g}"
 
-    def check(value: float) -> float:
-        if low <= value <= high or (or_zero and value == 0):
+    low: float
+    high: float
+    why: str
+    or_zero: bool
+
+    def __get_pydantic_core_schema__(
+        self, source: object, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        return no_info_after_validator_function(self._checked, handler(source))
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        number = handler(schema)
+        kind: JsonSchemaValue = {"type": number["type"]}
+        # A bound that is put on a range, Pydantic tells by its own name.
+        lows = [number[key] for key in ("minimum", "ge") if key in number]
+        highs = [number[key] for key in ("maximum", "le") if key in number]
+        bounds = {"minimum": max([self.low, *lows]), "maximum": min([self.high, *highs])}
+        return {**kind, "anyOf": [{"enum": [0]}, bounds]} if self.or_zero else {**kind, **bounds}
+
+    def _checked(self, value: float) -> float:
+        if self.low <= value <= self.high or (self.or_zero and value == 0):
             return value
-        raise PydanticCustomError(OUT_OF_RANGE, "{wanted}", {"wanted": wanted, "why": why})
+        wanted = f"{'0 or ' if self.or_zero else ''}{self.low:g} to {self.high:g}"
+        raise PydanticCustomError(OUT_OF_RANGE, "{wanted}", {"wanted": wanted, "why": self.why})
 
-    return AfterValidator(check)
+
+def _within(low: float, high: float, why: str, *, or_zero: bool = False) -> _Range:
+    return _Range(low, high, why, or_zero)
 
 
 # Strict: neither "4.0" nor true is a number.
@@ -58,11 +85,14 @@ Density = Annotated[_NonNegative, _within(1e-9, 1e5, "air has 1.2 kg/m3, water 1
 Viscosity = Annotated[_Positive, _within(1e-12, 1e6, "water has 1e-6 m2/s, honey 1e-2")]
 Gravity = Annotated[_NonNegative, _within(1e-9, 1e4, "the sun has 274 m/s2", or_zero=True)]
 Coefficient = Annotated[_NonNegative, _within(1e-9, 1e3, "a flat plate has 2", or_zero=True)]
+LiftSlope = Annotated[_Positive, _within(1e-6, 1e3, "thin sections have 2 pi")]
+MomentCoefficient = Annotated[Real, _within(-1e3, 1e3, "cambered sections have some -0.1")]
 Stiffness = Annotated[
     _NonNegative,
     _within(1e-40, 1e12, "a joint that hardly gives is prescribed", or_zero=True),
 ]
 Fraction = Annotated[_Positive, Field(le=1), _within(1e-6, 1.0, "0.5 is a usual one")]
+UnitInterval = Annotated[Real, Field(ge=0, le=1)]
 Elements = Annotated[
     int, Strict(), Field(ge=2), _within(2, 1024, "time grows with the cube of their number")
 ]

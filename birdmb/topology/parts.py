@@ -1,7 +1,6 @@
 """The parts of a bird as a topology file gives them: immutable, validated, SI and radians.
 
-Right wing; the left one is its mirror image. Body frame: x forward, y right, z down. Segment frame,
-bone straight out: the same directions, with y along the bone outwards.
+Right wing; the left one is its mirror image. Body frame: x forward, y right, z down.
 """
 
 from __future__ import annotations
@@ -9,25 +8,23 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import (
     AfterValidator,
     BaseModel,
-    BeforeValidator,
     ConfigDict,
     Discriminator,
     Field,
     Tag,
-    TypeAdapter,
-    field_serializer,
+    WithJsonSchema,
     model_validator,
 )
 from pydantic_core import PydanticCustomError
 
 from birdmb._typing import FloatArray
-from birdmb.topology.inertia import Tensor, from_diagonal, moments_by_key, possible_inertia
+from birdmb.topology.inertia import moments_by_key, tell_of_tensor
 from birdmb.topology.messages import BRANCH, problem, shown
 from birdmb.topology.names import Label
 from birdmb.topology.numbers import (
@@ -41,24 +38,15 @@ from birdmb.topology.numbers import (
     Fraction,
     Frequency,
     Inertia,
-    Length,
+    LiftSlope,
     Mass,
-    MassOrNone,
     Moment,
-    Real,
-    Share,
-    Stiffness,
+    MomentCoefficient,
     Viscosity,
     Volume,
 )
 
-Bone = Literal["humerus", "forearm", "hand"]
-BONES: tuple[Bone, ...] = ("humerus", "forearm", "hand")  # from the shoulder outwards
-
-Shares = tuple[tuple[str, float], ...]
-
 NO_DIRECTION = 1e-100  # of its square little is left
-_ALONG_THE_BONE = 1e-6  # rad; a right angle in degrees is none to the last bit
 
 
 class Part(BaseModel):
@@ -103,6 +91,8 @@ class Gait(Part):
 
 class Body(Part):
     """The body without its wings."""
+
+    model_config = ConfigDict(json_schema_extra=tell_of_tensor)
 
     mass: Mass = Field(description="mass of the body without its wings, kg")
     inertia_yy: Inertia = Field(
@@ -209,21 +199,59 @@ class Root(Part):
     z: Coordinate = Field(default=0.0, description="how far the shoulder is below, m")
 
 
+class Profile(Part):
+    """What a wing section does to the air about it; a thin symmetric one by default.
+
+    Its circulation is half of chord times lift slope times speed times the angle of attack beyond
+    that of zero lift; its pitching moment about the quarter chord is the coefficient times dynamic
+    pressure and chord squared, and does not depend on incidence.
+    """
+
+    angles: ClassVar[tuple[str, ...]] = ("zero_lift_angle",)
+
+    lift_slope: LiftSlope = Field(
+        default=2.0 * math.pi, description="lift coefficient per angle of attack, 1/rad"
+    )
+    zero_lift_angle: Angle = Field(
+        default=0.0,
+        description="angle of attack without lift, negative of cambered sections; rad, degrees as "
+        "zero_lift_angle_deg",
+    )
+    moment_coefficient: MomentCoefficient = Field(
+        default=0.0, description="moment about the quarter chord, nose up positive"
+    )
+
+
 class Wing(Part):
     """Where the wing is attached, how thick it is and how finely it is computed."""
 
     root: Root = Field(description="position of the right shoulder, a table of x, y and z in m")
     half_thickness: Distance = Field(
-        description="distance of the leading edge and of the feather roots from the bones, m"
+        default=0.0,
+        description="distance of the leading edge and of the feather roots from the bones, m; a "
+        "wing of sections has no use for it",
+    )
+    propatagium: Label | None = Field(
+        default=None,
+        description="segment to whose end the leading edge runs straight from the shoulder, as the "
+        "skin before an elbow does; by default the second one of three or more, else the first",
+    )
+    profile: Profile = Field(
+        default=Profile(), description="profile of all sections that have none of their own"
     )
     discretisation: Annotated[
-        Annotated[str, AfterValidator(_known_preset), Tag(f"{BRANCH}preset")]
+        Annotated[
+            str,
+            AfterValidator(_known_preset),
+            WithJsonSchema({"type": "string", "enum": [*PRESETS]}),
+            Tag(f"{BRANCH}preset"),
+        ]
         | Annotated[Elements, Tag(f"{BRANCH}elements")]
         | Annotated[Discretisation, Tag(f"{BRANCH}table")],
         Discriminator(
             _kind_of_discretisation, custom_error_type="choice", custom_error_message=_CHOICE
         ),
-    ] = "converged"
+    ] = Field(default="converged", description="how finely the wing's loads are computed")
 
     @property
     def resolved_discretisation(self) -> Discretisation:
@@ -233,94 +261,3 @@ class Wing(Part):
         if isinstance(self.discretisation, str):
             return PRESETS[self.discretisation]
         return PRESETS["converged"].model_copy(update={"elements": self.discretisation})
-
-
-class Segment(Part):
-    """A rigid segment of the wing; zero inertia makes it a point mass."""
-
-    length: Length = Field(description="length of the bone, m")
-    mass: MassOrNone = Field(description="mass of the segment of one wing, kg")
-    inertia: Annotated[Tensor, BeforeValidator(from_diagonal), AfterValidator(possible_inertia)] = (
-        Field(
-            description="inertia about the segment's centre of mass, kg m2: three moments about "
-            "x, y, z or a 3x3 tensor"
-        )
-    )
-    centre_of_mass: tuple[Coordinate, Coordinate, Coordinate] = Field(
-        default_factory=lambda validated: (0.0, validated["length"] / 2, 0.0),
-        description="centre of mass from the segment's root, [x, y, z] in m",
-    )
-
-
-_SHARES: TypeAdapter[dict[str, float]] = TypeAdapter(
-    dict[str, Share], config=ConfigDict(allow_inf_nan=False)
-)
-
-
-def _pairs(shares: Any) -> Any:
-    return shares if isinstance(shares, tuple) else tuple(_SHARES.validate_python(shares).items())
-
-
-class Hinge(Part):
-    """A spring and a damper about the bone's span axis, on which a feather is rooted.
-
-    The hinge's angle phi turns the whole feather, leading edge up (the tip down) positive. It has
-    no driver: its torque is -k (phi - phi_0) - C phi'.
-    """
-
-    angles: ClassVar[tuple[str, ...]] = ("rest",)
-
-    stiffness: Stiffness = Field(description="stiffness of the hinge, N m/rad")
-    damping: Stiffness = Field(description="damping of the hinge, N m s/rad")
-    mass: Mass = Field(description="mass of the feather, spread evenly along it, kg")
-    rest: Angle = Field(
-        default=0.0,
-        description="angle at which the spring is slack, leading edge up; rad, degrees as rest_deg",
-    )
-
-
-class Feather(Part):
-    """A straight feather rooted on a bone, following that bone and shares of joint angles."""
-
-    angles: ClassVar[tuple[str, ...]] = ("rest_angle",)
-
-    name: Label = Field(description='name of the feather, such as "1"', pattern=r"^[\w-]+$")
-    bone: Bone = Field(description="bone that the feather is rooted on")
-    position: Annotated[Real, Field(ge=0, le=1)] = Field(
-        description="place of the root along the bone, 0 at its root to 1 at its end"
-    )
-    length: Length = Field(description="length of the feather, m")
-    rest_angle: Angle = Field(
-        default=0.0,
-        description="angle outwards from straight aft; rad, degrees as rest_angle_deg",
-    )
-    shares: Annotated[Shares, BeforeValidator(_pairs)] = Field(
-        default=(), description="shares of joint angles, each under the joint's name in quotes"
-    )
-    hinge: Hinge | None = Field(
-        default=None, description="hinge of the feather, a table; rooted firmly if left out"
-    )
-
-    @field_serializer("shares")
-    def _as_table(self, shares: Shares) -> dict[str, float]:
-        return dict(shares)
-
-    @model_validator(mode="after")
-    def _hinge_can_turn_it(self) -> Self:
-        if self.hinge and not self.shares and abs(math.cos(self.rest_angle)) < _ALONG_THE_BONE:
-            raise problem(
-                f"a feather at {math.degrees(self.rest_angle):.6g} degrees points along its bone, "
-                "about which a hinge would turn it; it must be rooted firmly",
-                "hinge",
-            )
-        return self
-
-    @property
-    def hinge_name(self) -> str:
-        """Name of the hinge's angle among the states, and of its values."""
-        return f"feathers.{self.name}.hinge"
-
-    @property
-    def place(self) -> float:
-        """Where along the wing the root is: 0 shoulder, 1 elbow, 2 wrist, 3 hand tip."""
-        return BONES.index(self.bone) + self.position

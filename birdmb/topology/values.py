@@ -13,6 +13,7 @@ from birdmb.errors import TopologyError
 from birdmb.topology.joints import SIDES, Joint, JointSide
 from birdmb.topology.messages import Location, nearest, shown
 from birdmb.topology.parts import Part, Wing
+from birdmb.topology.segments import Segments
 
 _RESOLUTION = "wing.discretisation"
 
@@ -49,10 +50,13 @@ def named_places(bird: Part) -> dict[str, Location]:
 def _walk(part: Part, prefix: str, place: Location) -> Iterator[tuple[str, Location]]:
     for key in type(part).model_fields:
         child, here, name = getattr(part, key), (*place, key), f"{prefix}{key}"
-        if key in ("joints", "feathers"):
+        if key in ("joints", "feathers", "sections", "attachments"):
             for i, item in enumerate(child):
                 label = item.name if key == "joints" else f"{key}.{item.name}"
                 yield from _walk(item, f"{label}.", (*here, i))
+        elif isinstance(child, Segments):
+            for label, segment in child.items():
+                yield from _walk(segment, f"{name}.{label}.", (*here, label))
         elif isinstance(part, Wing) and key == "discretisation":
             yield name, here
             yield from _walk(part.resolved_discretisation, f"{name}.", here)

@@ -1,69 +1,96 @@
-"""Writing a bird as a topology file."""
+"""Writing a bird as a topology file, a new one or one like another with its comments."""
 
 from __future__ import annotations
 
-import math
 import re
-from collections.abc import Sequence
+import tomllib
+from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any
 
-import tomli_w
+import tomlkit
 
+from birdmb.errors import TopologyError
 from birdmb.files import write_whole
 from birdmb.text import on_one_line
-from birdmb.topology.bird import Bird
+from birdmb.topology.documents import read_document
+from birdmb.topology.editing import edit
+from birdmb.topology.messages import validated
 from birdmb.topology.parts import Part
+from birdmb.topology.tables import keyed_item, table_of
 
-_DIGITS = 12
-_OFF_DIAGONAL = [(i, j) for i in range(3) for j in range(3) if i != j]
-_NUMBERS = re.compile(r"\[\n([-+\d.e,\s]+)\]")
+_EMPTY_LINES, _ONE_OF_THEM = re.compile("\n{3,}"), "\n\n"
 
 
-def bird_text(bird: Bird, about: Sequence[str] = ()) -> str:
+def bird_text(bird: Part, about: Sequence[str] = ()) -> str:
     """A bird as TOML that `load_bird` reads as the same bird; what it left to defaults is left out.
 
     `about` are lines of comment to put before it, each on one line whatever it holds. Angles
     are in degrees where that is exact.
     """
-    comments = "".join(f"# {on_one_line(line)}".rstrip() + "\n" for line in about)
-    return f"{comments}\n{_NUMBERS.sub(_on_one_line, tomli_w.dumps(_table(bird)))}"
+    document = tomlkit.document()
+    for key, value in table_of(bird).items():
+        document.append(*keyed_item(key, value, heading=True))
+    return f"{_comments(about)}\n{_EMPTY_LINES.sub(_ONE_OF_THEM, tomlkit.dumps(document))}"
 
 
-def _on_one_line(found: re.Match[str]) -> str:
-    return f"[{', '.join(found[1].replace(',', ' ').split())}]"
+def edited_text(bird: Part, like: str | PathLike[str], about: Sequence[str] = ()) -> str:
+    """The text of the topology file `like` with the values of a bird where they differ.
+
+    Comments, order, and values that are the same stay as they are typed; an angle stays in the unit
+    it is typed in. `about` as for `bird_text`.
+
+    Raises:
+        TopologyError: the file is none of a bird, or its text cannot be kept with these values.
+    """
+    text, values = read_document(like)
+    before = validated(type(bird), values, str(like))
+    document = tomlkit.parse(text)
+    edit(document, table_of(before), table_of(bird))
+    edited = tomlkit.dumps(document)
+    if not _is_read_as(bird, edited):
+        raise TopologyError(
+            f"{like}: the text of this file cannot be kept with these values; write them into a "
+            "new file, without it"
+        )
+    return _comments(about) + edited
 
 
-def write_bird(bird: Bird, path: str | PathLike[str], about: Sequence[str] = ()) -> Path:
-    """Write `bird_text` into a file; return its path.
+def write_bird(
+    bird: Part,
+    path: str | PathLike[str],
+    about: Sequence[str] = (),
+    like: str | PathLike[str] | None = None,
+) -> Path:
+    """Write `bird_text`, or `edited_text` where there is a file `like`, into a file.
+
+    Returns:
+        The path.
 
     Raises:
         OutputError: the file cannot be written.
+        TopologyError: as `edited_text`.
     """
-    return write_whole(path, bird_text(bird, about).encode())
+    text = bird_text(bird, about) if like is None else edited_text(bird, like, about)
+    return write_whole(path, text.encode())
 
 
-def _table(part: Part) -> dict[str, Any]:
-    dumped = part.model_dump(exclude_unset=True)
-    table: dict[str, Any] = {}
-    for key, plain in dumped.items():
-        value = getattr(part, key)
-        if value is None:
-            continue
-        if key in part.angles:
-            table |= _angle(key, value)
-        elif key == "inertia" and all(plain[i][j] == 0.0 for i, j in _OFF_DIAGONAL):
-            table[key] = [plain[i][i] for i in range(3)]
-        elif isinstance(value, Part):
-            table[key] = _table(value)
-        elif isinstance(value, tuple) and value and isinstance(value[0], Part):
-            table[key] = [_table(item) for item in value]
-        else:
-            table[key] = plain
-    return table
+def _comments(about: Sequence[str]) -> str:
+    return "".join(f"# {on_one_line(line)}".rstrip() + "\n" for line in about)
 
 
-def _angle(key: str, value: float) -> dict[str, float]:
-    degrees = float(f"{math.degrees(value):.{_DIGITS}g}")
-    return {f"{key}_deg": degrees} if math.radians(degrees) == value else {key: value}
+def _is_read_as(bird: Part, text: str) -> bool:
+    try:
+        read = validated(type(bird), tomllib.loads(text), "the edited text")
+    except (tomllib.TOMLDecodeError, TopologyError):
+        return False
+    return _in_order(read.model_dump()) == _in_order(bird.model_dump())
+
+
+def _in_order(document: object) -> object:
+    """A document to compare: the order of keys counts, as that of a wing's segments."""
+    if isinstance(document, Mapping):
+        return [(key, _in_order(value)) for key, value in document.items()]
+    if isinstance(document, list | tuple):
+        return [_in_order(value) for value in document]
+    return document

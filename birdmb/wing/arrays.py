@@ -7,19 +7,20 @@ from typing import NamedTuple
 import numpy as np
 
 from birdmb._typing import BoolArray, FloatArray, IntArray
-from birdmb.topology import BONES, Bird
+from birdmb.topology import Bird
 
 
 class WingArrays(NamedTuple):
-    """The joint chain, bones and feathers of the right wing (SI, rad; J joints, F feathers).
+    """Joint chain, bones and feathers or sections of the right wing (SI, rad).
 
-    A wing is placed by A = J + H angles: those of the joints, then those of the H hinges of
-    feathers. The driver of a hinge is its rest angle, at all times.
+    J joints, B bones, F feathers or else S sections. A wing is placed by A = J + H angles: those of
+    the joints, then those of the H hinges of feathers. The driver of a hinge is its rest angle, at
+    all times.
     """
 
     root: FloatArray  # (3,) shoulder joint from the body's centre of mass, body frame
     half_thickness: float
-    bone_length: FloatArray  # (3,) humerus, forearm, hand
+    bone_length: FloatArray  # (B,) from the shoulder outwards
     axis: FloatArray  # (J, 3) unit vectors in the parent's frame
     segment: IntArray  # (J,) the bone that each joint carries
     twist: BoolArray  # (J,) spread along its bone
@@ -29,7 +30,15 @@ class WingArrays(NamedTuple):
     feather_rest_angle: FloatArray  # (F,) 0 aft, pi/2 outwards along the bone
     feather_share: FloatArray  # (F, J) of each joint's angle that the feather follows
     feather_hinge: IntArray  # (F,) which of the A angles turns the feather on its hinge, -1: none
-    square_tip: bool  # the wing ends in a tip edge, not in a point
+    square_tip: bool  # a wing of feathers ends in a tip edge, not in a point
+    skin: int  # bone to whose end the leading edge of feathers runs straight from the shoulder
+    section_bone: IntArray  # (S,) from the shoulder outwards
+    section_position: FloatArray  # (S,) 0 at the bone's root, 1 at its end
+    section_chord: FloatArray  # (S,)
+    section_offset: FloatArray  # (S,) of the quarter chord ahead of the bone
+    section_twist: FloatArray  # (S,) leading edge up
+    bone_end: FloatArray  # (B,) where among the leading edge's vertices each bone ends
+    profile: FloatArray  # (1 or S, 3) lift slope, zero-lift angle, moment coefficient
     offset: FloatArray  # (A,) drivers: offset + amplitude sin(2 pi f t + phase)
     amplitude: FloatArray
     phase: FloatArray
@@ -40,7 +49,7 @@ class JointArrays(NamedTuple):
     """The part of `WingArrays` that places joints: less to hand over where no shape is made."""
 
     root: FloatArray  # (3,) as in `WingArrays`
-    bone_length: FloatArray  # (3,)
+    bone_length: FloatArray  # (B,)
     axis: FloatArray  # (J, 3)
     segment: IntArray  # (J,)
     twist: BoolArray  # (J,)
@@ -61,30 +70,73 @@ def joint_arrays(wing: WingArrays) -> JointArrays:
 
 def wing_arrays(bird: Bird) -> WingArrays:
     """Arrays of a bird's right wing, in the order of its joint chain and feather list."""
+    bird = bird.assembled
     joints, feathers, angles = bird.joints, bird.feathers, bird.angle_names
+    names, sections = bird.segments.names, bird.sections
     rest = [feather.hinge.rest for feather in feathers if feather.hinge]
     still = [0.0] * len(rest)
     return WingArrays(
         root=np.array([bird.wing.root.x, bird.wing.root.y, bird.wing.root.z]),
         half_thickness=bird.wing.half_thickness,
-        bone_length=np.array([getattr(bird.segments, name).length for name in BONES]),
+        bone_length=np.array([segment.length for _, segment in bird.segments.items()]),
         axis=np.array([joint.axis for joint in joints], dtype=float).reshape(-1, 3),
-        segment=np.array([BONES.index(joint.segment) for joint in joints], dtype=np.int64),
+        segment=np.array([names.index(joint.segment) for joint in joints], dtype=np.int64),
         twist=np.array([joint.twist for joint in joints], dtype=np.bool_),
-        feather_bone=np.array([BONES.index(f.bone) for f in feathers], dtype=np.int64),
-        feather_position=np.array([f.position for f in feathers]),
-        feather_length=np.array([f.length for f in feathers]),
-        feather_rest_angle=np.array([f.rest_angle for f in feathers]),
-        feather_share=np.array([bird.feather_shares(f) for f in feathers]).reshape(-1, len(joints)),
+        feather_bone=np.array([names.index(f.bone) for f in feathers], dtype=np.int64),
+        feather_position=np.array([f.position for f in feathers], dtype=float),
+        feather_length=np.array([f.length for f in feathers], dtype=float),
+        feather_rest_angle=np.array([f.rest_angle for f in feathers], dtype=float),
+        feather_share=np.array([bird.feather_shares(f) for f in feathers], dtype=float).reshape(
+            len(feathers), len(joints)
+        ),
         feather_hinge=np.array(
             [angles.index(f.hinge_name) if f.hinge else -1 for f in feathers], dtype=np.int64
         ),
-        square_tip=_has_square_tip(bird),
+        square_tip=bool(feathers) and _has_square_tip(bird),
+        skin=_skin(bird),
+        section_bone=np.array([names.index(s.bone) for s in sections], dtype=np.int64),
+        section_position=np.array([s.position for s in sections], dtype=float),
+        section_chord=np.array([s.chord for s in sections], dtype=float),
+        section_offset=np.array([s.offset for s in sections], dtype=float),
+        section_twist=np.array([s.twist for s in sections], dtype=float),
+        bone_end=_bone_ends(bird),
+        profile=_profiles(bird),
         offset=np.array([joint.offset for joint in joints] + rest),
         amplitude=np.array([joint.amplitude for joint in joints] + still),
         phase=np.array([joint.phase for joint in joints] + still),
         angular_frequency=2.0 * np.pi * bird.gait.frequency,
     )
+
+
+def _skin(bird: Bird) -> int:
+    """Which bone the skin before the joints reaches to, from the shoulder."""
+    names, wanted = bird.segments.names, bird.wing.propatagium
+    if wanted is not None:
+        return names.index(wanted)
+    return 1 if len(names) > 2 else 0
+
+
+def _bone_ends(bird: Bird) -> FloatArray:
+    """Where (B,) among the leading edge's vertices the bones end.
+
+    Fractions of the way from one vertex to the next. An edge of feathers has one at each end.
+    """
+    names = bird.segments.names
+    ends = np.arange(1.0, len(names) + 1.0)
+    if not bird.sections:
+        return ends
+    places = [names.index(section.bone) + section.position for section in bird.sections]
+    return np.interp(ends, places, np.arange(float(len(places))))
+
+
+def _profiles(bird: Bird) -> FloatArray:
+    """Lift slope, zero-lift angle, moment coefficient (1 or S, 3); one row if all are alike."""
+    own = [section.profile or bird.wing.profile for section in bird.sections]
+    rows = [(p.lift_slope, p.zero_lift_angle, p.moment_coefficient) for p in own]
+    if len(set(rows)) < 2:
+        one = own[0] if own else bird.wing.profile
+        rows = [(one.lift_slope, one.zero_lift_angle, one.moment_coefficient)]
+    return np.array(rows)
 
 
 def _has_square_tip(bird: Bird) -> bool:

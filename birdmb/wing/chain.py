@@ -18,29 +18,29 @@ from birdmb.wing.rotations import rotate_about
 
 
 class Chain(NamedTuple):
-    """Joints and bones of the right wing; of bones the first axis is humerus, forearm, hand."""
+    """Joints and B bones of the right wing, from the shoulder outwards."""
 
     axis: Array  # (J, 3) unit vectors of the joints
     frame: Array  # (J + 1, 3, 3) behind so many joints, to body axes
-    origin: Array  # (3, 3) m, where each bone starts
-    tip: Array  # (3,) m, end of the hand
-    rotation: Array  # (3, 3, 3) each bone's frame to body axes
-    root_rotation: Array  # (3, 3, 3) the same without the bone's own twist joints
+    origin: Array  # (B, 3) m, where each bone starts
+    tip: Array  # (3,) m, end of the last bone
+    rotation: Array  # (B, 3, 3) each bone's frame to body axes
+    root_rotation: Array  # (B, 3, 3) the same without the bone's own twist joints
 
 
 @kernel
 def joint_chain(wing: WingArrays | JointArrays, angles: Array) -> Chain:
     """Place joints and bones at `angles` (J,) rad, real or complex; more are not read."""
-    n = wing.segment.size
+    n, bones = wing.segment.size, wing.bone_length.size
     axis = np.zeros((n, 3), angles.dtype)
     frame = np.zeros((n + 1, 3, 3), angles.dtype)
-    origin = np.zeros((4, 3), angles.dtype)
-    rotation = np.zeros((3, 3, 3), angles.dtype)
-    root_rotation = np.zeros((3, 3, 3), angles.dtype)
+    origin = np.zeros((bones + 1, 3), angles.dtype)
+    rotation = np.zeros((bones, 3, 3), angles.dtype)
+    root_rotation = np.zeros((bones, 3, 3), angles.dtype)
     R = np.eye(3).astype(angles.dtype)
     frame[0] = R
     joint = 0
-    for bone in range(3):
+    for bone in range(bones):
         untwisted = R
         while joint < n and wing.segment[joint] == bone:
             for i in range(3):
@@ -54,7 +54,7 @@ def joint_chain(wing: WingArrays | JointArrays, angles: Array) -> Chain:
         rotation[bone] = R
         root_rotation[bone] = untwisted
         origin[bone + 1] = origin[bone] + wing.bone_length[bone] * R[:, 1]
-    return Chain(axis, frame, origin[:3], origin[3], rotation, root_rotation)
+    return Chain(axis, frame, origin[:bones], origin[bones], rotation, root_rotation)
 
 
 def joints_turning_the_whole(wing: WingArrays) -> int:

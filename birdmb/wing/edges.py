@@ -1,4 +1,4 @@
-"""Feathers and the two edges between which the wing is spanned.
+"""The two edges between which the wing is spanned: by feathers, or by sections along the bones.
 
 Frame: the right wing, body axes (x forward, y right, z down), origin at the shoulder joint. The
 kernels take complex angles as well, for exact time derivatives (`birdmb.wing.chain`).
@@ -17,27 +17,29 @@ from birdmb.wing.rotations import rotate_about, turned_about
 
 # Small enough for its square to vanish beside 1, large enough to stay clear of denormal numbers.
 COMPLEX_STEP = 1e-30
-HUMERUS, FOREARM, HAND = 0, 1, 2
 
 
 @kernel
-def _feather_root_aft(wing: WingArrays, bones: Chain, angles: Array, feather: int) -> Array:
-    """Aft direction of the bones where a feather is rooted: at a joint, the two bones' mean."""
-    bone = wing.feather_bone[feather]
-    position = wing.feather_position[feather]
+def _twisted(wing: WingArrays, bones: Chain, angles: Array, bone: int, position: float) -> Array:
+    """A bone's frame (3, 3) at a position along it, twisted as far as it is there."""
     if position == 0.0:
-        R = bones.root_rotation[bone]
-    elif position == 1.0:
-        R = bones.rotation[bone]
-    else:
-        R = bones.root_rotation[bone]
-        for j in range(wing.segment.size):
-            if wing.segment[j] == bone and wing.twist[j]:
-                R = rotate_about(R, wing.axis[j], position * angles[j])
-    aft = -R[:, 0]
-    if position == 1.0 and bone < HAND:
+        return bones.root_rotation[bone]
+    if position == 1.0:
+        return bones.rotation[bone]
+    R = bones.root_rotation[bone]
+    for j in range(wing.segment.size):
+        if wing.segment[j] == bone and wing.twist[j]:
+            R = rotate_about(R, wing.axis[j], position * angles[j])
+    return R
+
+
+@kernel
+def _aft_at(wing: WingArrays, bones: Chain, angles: Array, bone: int, position: float) -> Array:
+    """Aft direction at a position along a bone; at a joint the mean of both bones'."""
+    aft = -_twisted(wing, bones, angles, bone, position)[:, 0]
+    if position == 1.0 and bone < wing.bone_length.size - 1:
         aft = 0.5 * (aft - bones.root_rotation[bone + 1][:, 0])
-    elif position == 0.0 and bone > HUMERUS:
+    elif position == 0.0 and bone > 0:
         aft = 0.5 * (aft - bones.rotation[bone - 1][:, 0])
     return aft
 
@@ -65,14 +67,14 @@ def trailing_edge(wing: WingArrays, bones: Chain, angles: Array) -> Array:
         root = (
             bones.origin[bone]
             + wing.feather_position[i] * wing.bone_length[bone] * bones.rotation[bone][:, 1]
-            + wing.half_thickness * _feather_root_aft(wing, bones, angles, i)
+            + wing.half_thickness * _aft_at(wing, bones, angles, bone, wing.feather_position[i])
         )
         vertices[i] = root + wing.feather_length[i] * direction
     return vertices
 
 
 def feather_ends(wing: WingArrays, bones: Chain, angles: Array) -> tuple[Array, Array]:
-    """Roots and tips (F, 3) m of the feathers, from shoulder to wing tip."""
+    """Roots and tips (F, 3) m of the feathers, from shoulder to wing tip; none of sections."""
     # A feather of no length ends at its root.
     rootlets = wing._replace(feather_length=0.0 * wing.feather_length)
     return trailing_edge(rootlets, bones, angles), trailing_edge(wing, bones, angles)
@@ -80,15 +82,19 @@ def feather_ends(wing: WingArrays, bones: Chain, angles: Array) -> tuple[Array, 
 
 @kernel
 def leading_edge(wing: WingArrays, bones: Chain, tip: Array) -> Array:
-    """Vertices (5, 3) of the leading edge: shoulder, abreast of the elbow, wrist, hand tip, `tip`.
+    """Vertices (B + 2, 3) of the leading edge: shoulder, abreast of each bone's end, `tip`.
 
-    From the shoulder the edge runs straight to the wrist (the skin in front of the elbow); its own
-    forward direction is square to that line and to the humerus' up axis.
+    From the shoulder the edge runs straight to the end of the bone `skin` (the skin before an
+    elbow); its own forward direction is square to that line and to the first bone's up axis. From
+    there it follows the bones.
     """
-    wrist = bones.origin[HAND]
-    arm = np.sqrt(wrist[0] * wrist[0] + wrist[1] * wrist[1] + wrist[2] * wrist[2])
-    out = wrist / arm
-    up = -bones.rotation[HUMERUS][:, 2]
+    count, skin, a = wing.bone_length.size, wing.skin, wing.half_thickness
+    stretched = bones.tip if skin == count - 1 else bones.origin[skin + 1]
+    reach = np.sqrt(
+        stretched[0] * stretched[0] + stretched[1] * stretched[1] + stretched[2] * stretched[2]
+    )
+    out = stretched / reach
+    up = -bones.rotation[0][:, 2]
     forward = np.array(
         [
             up[1] * out[2] - up[2] * out[1],
@@ -99,21 +105,29 @@ def leading_edge(wing: WingArrays, bones: Chain, tip: Array) -> Array:
     forward = forward / np.sqrt(
         forward[0] * forward[0] + forward[1] * forward[1] + forward[2] * forward[2]
     )
-    upper_arm = wing.bone_length[HUMERUS] / (wing.bone_length[HUMERUS] + wing.bone_length[FOREARM])
-    a = wing.half_thickness
-    vertices = np.empty((5, 3), wrist.dtype)
+    vertices = np.empty((count + 2, 3), stretched.dtype)
     vertices[0] = a * forward
-    vertices[1] = upper_arm * wrist + a * forward
-    vertices[2] = wrist + 0.5 * a * (forward + bones.root_rotation[HAND][:, 0])
-    vertices[3] = bones.tip + a * bones.rotation[HAND][:, 0]
-    vertices[4] = tip
+    along, whole = 0.0, wing.bone_length[: skin + 1].sum()
+    for bone in range(skin):
+        along += wing.bone_length[bone]
+        vertices[bone + 1] = along / whole * stretched + a * forward
+    for bone in range(skin, count):
+        end = bones.tip if bone == count - 1 else bones.origin[bone + 1]
+        inner = forward if bone == skin else bones.rotation[bone][:, 0]
+        if bone == count - 1:
+            vertices[bone + 1] = end + a * inner
+        else:
+            vertices[bone + 1] = end + 0.5 * a * (inner + bones.root_rotation[bone + 1][:, 0])
+    vertices[count + 1] = tip
     return vertices
 
 
 @kernel
 def wing_edges(wing: WingArrays, angles: Array) -> tuple[Array, Array]:
-    """Vertices of the leading (5, 3) and trailing (F, 3) edge, m, at `angles` (A,) rad."""
+    """Vertices (m, 3) of the leading and of the trailing edge, m, at `angles` (A,) rad."""
     bones = joint_chain(wing, angles)
+    if wing.section_bone.size > 0:
+        return section_ends(wing, bones, angles)
     trailing = trailing_edge(wing, bones, angles)
     leading = leading_edge(wing, bones, trailing[-1])
     if wing.square_tip:
@@ -122,8 +136,43 @@ def wing_edges(wing: WingArrays, angles: Array) -> tuple[Array, Array]:
 
 
 @kernel
+def section_ends(wing: WingArrays, bones: Chain, angles: Array) -> tuple[Array, Array]:
+    """Leading and trailing ends, each (S, 3) m, of the sections, from the shoulder outwards."""
+    n = wing.section_bone.size
+    leading, trailing = np.empty((n, 3), angles.dtype), np.empty((n, 3), angles.dtype)
+    for i in range(n):
+        bone, position = wing.section_bone[i], wing.section_position[i]
+        out = _out_at(wing, bones, bone, position)
+        # Square to the bone, which the mean of two directions need not be.
+        forward = -_aft_at(wing, bones, angles, bone, position)
+        forward = _unit(forward - np.sum(forward * out) * out)
+        forward = turned_about(out, wing.section_twist[i], forward)
+        place = bones.origin[bone] + position * wing.bone_length[bone] * bones.rotation[bone][:, 1]
+        quarter, chord = place + wing.section_offset[i] * forward, wing.section_chord[i]
+        leading[i] = quarter + 0.25 * chord * forward
+        trailing[i] = quarter - 0.75 * chord * forward
+    return leading, trailing
+
+
+@kernel
+def _out_at(wing: WingArrays, bones: Chain, bone: int, position: float) -> Array:
+    """Unit vector outwards along a bone; at a joint midway between both bones."""
+    out = bones.rotation[bone][:, 1].copy()
+    if position == 1.0 and bone < wing.bone_length.size - 1:
+        out = _unit(out + bones.rotation[bone + 1][:, 1])
+    elif position == 0.0 and bone > 0:
+        out = _unit(out + bones.rotation[bone - 1][:, 1])
+    return out
+
+
+@kernel
+def _unit(v: Array) -> Array:
+    return v / np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+
+
+@kernel
 def _without_tip_edge(leading: Array) -> Array:
-    """The leading edge (4, 3) m up to a square tip, its last leg lengthened if the tip is raked.
+    """The leading edge (B + 1, 3) m up to a square tip, its last leg longer if the tip is raked.
 
     The wing's last chord passes through the quarter point between this end and the trailing edge's.
     Lengthening by a third of what the tip edge reaches outwards takes that point half as far, which

@@ -1,7 +1,8 @@
 """The lifting line and how fast single joints and hinges move it.
 
 A load on the line has the generalised force load . (velocity per rate of a hinge) on that hinge,
-by virtual work. These velocities are exact derivatives, by the complex step of the wing's edges.
+by virtual work, and a moment likewise with the angular velocity of its chord. These are exact
+derivatives, by the complex step of the wing's edges.
 """
 
 from __future__ import annotations
@@ -23,17 +24,18 @@ def orthogonal_wing(
     """Orthogonal line of a wing at `angles` (A,) rad, whose imaginary parts carry rates.
 
     Returns the paired edges, the leading edge's vertices (m, 3) m, the points (stations, 3) m from
-    which the span direction is taken and the velocities (M, N, 3) m of the N control points, every
-    second station, per rate of each of the angles `moving` (M,).
+    which the span direction is taken and the twists (M, N, 6) per rate of each of the angles
+    `moving` (M,): velocities (m) of the N control points, every second station, and angular
+    velocities of their chords.
     """
     leading, trailing = wing_edges(wing, angles)
     line = solved_line(leading, trailing, stations, rounding)
     pairs = moved_line(line, leading, trailing, rounding)
-    velocity = np.empty((moving.size, stations // 2, 3))
+    twist = np.empty((moving.size, stations // 2, 6))
     for m in range(moving.size):
         moving_leading, moving_trailing = wing_edges(wing, _one_moving(angles, moving[m]))
-        velocity[m] = _control_velocity(moved_line(line, moving_leading, moving_trailing, rounding))
-    return pairs, leading, line_to_follow(line, pairs), velocity
+        twist[m] = _control_twist(moved_line(line, moving_leading, moving_trailing, rounding))
+    return pairs, leading, line_to_follow(line, pairs), twist
 
 
 @kernel
@@ -43,11 +45,11 @@ def one_step_wing(
     """As `orthogonal_wing` with the published line; see `one_step_line` about its direction."""
     leading, trailing = wing_edges(wing, angles)
     pairs, guide = one_step_line(leading, trailing, stations)
-    velocity = np.empty((moving.size, stations // 2, 3))
+    twist = np.empty((moving.size, stations // 2, 6))
     for m in range(moving.size):
         moving_leading, moving_trailing = wing_edges(wing, _one_moving(angles, moving[m]))
-        velocity[m] = _control_velocity(one_step_line(moving_leading, moving_trailing, stations)[0])
-    return pairs, leading, guide, velocity
+        twist[m] = _control_twist(one_step_line(moving_leading, moving_trailing, stations)[0])
+    return pairs, leading, guide, twist
 
 
 @kernel
@@ -58,5 +60,16 @@ def _one_moving(angles: ComplexArray, which: int) -> ComplexArray:
 
 
 @kernel
-def _control_velocity(pairs: PairedEdges) -> FloatArray:
-    return (0.75 * pairs.leading + 0.25 * pairs.trailing)[0::2].imag / COMPLEX_STEP
+def _control_twist(pairs: PairedEdges) -> FloatArray:
+    """Velocities of the control points and angular velocities of their chords, (N, 6)."""
+    n = pairs.leading.shape[0] // 2
+    twist = np.empty((n, 6))
+    twist[:, :3] = (0.75 * pairs.leading + 0.25 * pairs.trailing)[0::2].imag / COMPLEX_STEP
+    for e in range(n):
+        chord = pairs.trailing[2 * e] - pairs.leading[2 * e]
+        c, rate = chord.real, chord.imag / COMPLEX_STEP
+        square = c[0] * c[0] + c[1] * c[1] + c[2] * c[2]
+        twist[e, 3] = (c[1] * rate[2] - c[2] * rate[1]) / square
+        twist[e, 4] = (c[2] * rate[0] - c[0] * rate[2]) / square
+        twist[e, 5] = (c[0] * rate[1] - c[1] * rate[0]) / square
+    return twist

@@ -14,7 +14,7 @@ from birdmb.errors import StateError
 from birdmb.topology import Bird, Discretisation
 from birdmb.wing.arrays import WingArrays, wing_arrays
 from birdmb.wing.chain import joint_chain
-from birdmb.wing.edges import feather_ends, leading_edge, wing_edges
+from birdmb.wing.edges import feather_ends, leading_edge, section_ends, wing_edges
 from birdmb.wing.line import orthogonal_line
 from birdmb.wing.one_step import one_step_line
 from birdmb.wing.rounded import point, rounded_polyline
@@ -34,9 +34,9 @@ class WingOutline:
     trailing: FloatArray
     """(P, 3), trailing edge likewise."""
     bones: FloatArray
-    """(4, 3), shoulder, elbow, wrist and tip of the hand."""
+    """(B + 1, 3), shoulder and the ends of the bones, the wing's tip last."""
     feathers: FloatArray
-    """(F, 2, 3), root and tip of every feather, from the shoulder outwards."""
+    """(F, 2, 3), root and tip of every feather, or ends of every section, outwards."""
     line: FloatArray
     """(N + 1, 3), lifting line at the borders of its N elements: the shoulder, then the nodes."""
     chords: FloatArray
@@ -124,8 +124,12 @@ def _outline(wing: WingArrays, angles: FloatArray, discretisation: Discretisatio
     # Complex as the model's own calls are (for rates, here none): no kernel is compiled twice.
     still = angles.astype(complex)
     bones = joint_chain(wing, still)
-    roots, tips = feather_ends(wing, bones, still)
-    front = leading_edge(wing, bones, tips[-1])
+    if wing.section_bone.size:
+        roots, tips = section_ends(wing, bones, still)
+        front = roots
+    else:
+        roots, tips = feather_ends(wing, bones, still)
+        front = leading_edge(wing, bones, tips[-1])
     edges = front.real.copy(), tips.real.copy()
     if discretisation.scheme != "one-step":
         edges = (

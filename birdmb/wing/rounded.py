@@ -16,7 +16,10 @@ from birdmb._typing import Array, FloatArray
 
 
 class RoundedPolyline(NamedTuple):
-    """n vertices as start, first tangent and n - 2 turns; the parameter runs from 0 to 1."""
+    """n vertices as start, first tangent and n - 2 turns; the parameter runs from 0 to 1.
+
+    In space, or of any three values that go linearly from one vertex to the next.
+    """
 
     start: Array  # (3,) m
     tangent: Array  # (3,) m, derivative by the parameter on the first leg
@@ -32,13 +35,26 @@ def rounded_polyline(vertices: Array, rounding: float) -> RoundedPolyline:
     a and b are the lengths of the legs that meet there: for `rounding` up to 1 no rounding reaches
     the end of a leg.
     """
-    n = vertices.shape[0]
+    return rounded_along(vertices, leg_lengths(vertices), rounding)
+
+
+@kernel
+def leg_lengths(vertices: Array) -> Array:
+    """Lengths (n - 1,) m of the legs between vertices (n, 3) m."""
     legs = vertices[1:] - vertices[:-1]
-    length = np.empty(n - 1, vertices.dtype)
-    for i in range(n - 1):
+    length = np.empty(legs.shape[0], vertices.dtype)
+    for i in range(length.size):
         length[i] = np.sqrt(
             legs[i, 0] * legs[i, 0] + legs[i, 1] * legs[i, 1] + legs[i, 2] * legs[i, 2]
         )
+    return length
+
+
+@kernel
+def rounded_along(vertices: Array, length: Array, rounding: float) -> RoundedPolyline:
+    """As `rounded_polyline`, of any three values (n, 3) at vertices so far apart (n - 1,) m."""
+    n = vertices.shape[0]
+    legs = vertices[1:] - vertices[:-1]
     total = length.sum()
     corner = np.empty(n - 2, vertices.dtype)
     width = np.empty(n - 2, vertices.dtype)

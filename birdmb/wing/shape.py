@@ -15,10 +15,10 @@ from birdmb._kernels import kernel
 from birdmb._typing import ComplexArray, FloatArray, IntArray
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.chain import joint_chain
-from birdmb.wing.edges import COMPLEX_STEP, HUMERUS
+from birdmb.wing.edges import COMPLEX_STEP
 from birdmb.wing.hinges import one_step_wing, orthogonal_wing
 from birdmb.wing.line import PairedEdges
-from birdmb.wing.rounded import smooth_step
+from birdmb.wing.rounded import leg_lengths, points, rounded_along, smooth_step
 
 
 class WingShape(NamedTuple):
@@ -30,9 +30,10 @@ class WingShape(NamedTuple):
     normal: FloatArray  # (N, 3) up
     span_direction: FloatArray  # (N, 3) outwards
     chord: FloatArray  # (N,) m
-    distal_fraction: FloatArray  # (N, 2) of the element's load, carried beyond the elbow, the wrist
-    converged: bool  # the lifting line was found, and its chords point backwards along the humerus
-    hinge_velocity: FloatArray  # (H, N, 3) m, of the control points per rate of each hinge
+    profile: FloatArray  # (N, 3) lift slope 1/rad, zero-lift angle rad, moment coefficient
+    distal_fraction: FloatArray  # (N, B - 1) of the element's load, carried beyond each bone
+    converged: bool  # the line was found, and its chords point backwards along the first bone
+    hinge_twist: FloatArray  # (H, N, 6) velocity (m) of the control point and spin of the chord
 
 
 @kernel
@@ -47,32 +48,67 @@ def _cross(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
     out[2] = a[0] * b[1] - a[1] * b[0]
 
 
-@kernel
-def _distal_fractions(leading: FloatArray, edge: FloatArray, rounding: float) -> FloatArray:
-    """Fractions (N, 2) of each element's load that the bones beyond elbow and wrist carry.
+class LeadingArc(NamedTuple):
+    """Where the controls of the elements are along the leading edge."""
 
-    An element belongs to the bone abreast of its leading-edge point; around the corners the share
-    passes over smoothly, for loads on a bone must not jump in time.
-    """
-    legs = np.empty(edge.shape[0] - 1)
-    for i in range(legs.size):
-        legs[i] = _length(edge[i + 1] - edge[i])
+    reached: FloatArray  # (N,) m, from the shoulder
+    whole: float  # m, to the wing tip
+    legs: FloatArray  # (m - 1,) m, of the edge's vertices
+
+
+@kernel
+def _leading_arc(leading: FloatArray, edge: FloatArray) -> LeadingArc:
     n = leading.shape[0] // 2
-    distal_fraction = np.empty((n, 2))
-    reached = 0.0
+    reached, whole = np.empty(n), 0.0
     for j in range(2 * n):
         if j > 0:
             x = leading[j, 0] - leading[j - 1, 0]
             y = leading[j, 1] - leading[j - 1, 1]
             z = leading[j, 2] - leading[j - 1, 2]
-            reached += np.sqrt(x * x + y * y + z * z)
+            whole += np.sqrt(x * x + y * y + z * z)
         if j % 2 == 0:
-            corner = 0.0
-            for k in range(2):
-                corner += legs[k]
-                width = rounding * legs[k] * legs[k + 1] / (legs[k] + legs[k + 1])
-                distal_fraction[j // 2, k] = smooth_step((reached - corner) / width)
+            reached[j // 2] = whole
+    return LeadingArc(reached, whole, leg_lengths(edge))
+
+
+@kernel
+def _distal_fractions(arc: LeadingArc, bone_end: FloatArray, rounding: float) -> FloatArray:
+    """Fractions (N, B - 1) of each element's load that the bones beyond each joint carry.
+
+    An element belongs to the bone abreast of its leading-edge point; around the corners the share
+    passes over smoothly, for loads on a bone must not jump in time. `bone_end` (B,) tells where
+    among the edge's vertices these are.
+    """
+    n, bones = arc.reached.size, bone_end.size
+    corner, length = np.empty(bones), np.empty(bones)
+    reached, leg = 0.0, 0
+    for k in range(bones):
+        while leg + 1 <= bone_end[k] and leg + 1 < arc.legs.size:
+            reached += arc.legs[leg]
+            leg += 1
+        corner[k] = reached + (bone_end[k] - leg) * arc.legs[leg]
+        length[k] = corner[k] - (corner[k - 1] if k > 0 else 0.0)
+    distal_fraction = np.empty((n, bones - 1))
+    for k in range(bones - 1):
+        width = rounding * length[k] * length[k + 1] / (length[k] + length[k + 1])
+        for e in range(n):
+            distal_fraction[e, k] = smooth_step((arc.reached[e] - corner[k]) / width)
     return distal_fraction
+
+
+@kernel
+def _profiles(arc: LeadingArc, profile: FloatArray, rounding: float) -> FloatArray:
+    """Profiles (N, 3) of the elements, from those of all (1, 3) or of each section (S, 3).
+
+    Between sections linear along the leading edge, and rounded at them as the edge is: an element
+    that moves along the edge over the beat must not meet a kink.
+    """
+    n = arc.reached.size
+    if profile.shape[0] == 1:
+        found = np.empty((n, 3))
+        found[:] = profile[0]
+        return found
+    return points(rounded_along(profile, arc.legs, rounding), arc.reached / arc.whole)
 
 
 def wing_shape(
@@ -106,9 +142,10 @@ def shape_of_edges(
     published: bool | None,
     singly: IntArray,
 ) -> tuple[WingShape, FloatArray]:
-    """As `wing_shape`, and velocities (M, N, 3) m per rate of each of the angles `singly` (M,).
+    """As `wing_shape`, and twists (M, N, 6) per rate of each of the angles `singly` (M,).
 
-    These end with the hinges'. Raises `ZeroDivisionError` where an edge or a chord has no length.
+    Velocities (m) of the control points and angular velocities of the chords, which end with the
+    hinges'. Raises `ZeroDivisionError` where an edge or a chord has no length.
     Of `published`, `None` is false: numba then does not compile what only the other line needs.
     """
     moving = angles + 1j * COMPLEX_STEP * rates
@@ -119,8 +156,8 @@ def shape_of_edges(
             wing, moving, 2 * elements, rounding, singly
         )
     per_hinge = per_rate[singly.size - (wing.offset.size - wing.segment.size) :].copy()
-    shape = _assemble(pairs, guide, leading, per_hinge, rounding, published is not None)
-    forward = joint_chain(wing, moving).rotation[HUMERUS, :, 0].real
+    shape = _assemble(wing, pairs, guide, leading, per_hinge, rounding, published is not None)
+    forward = joint_chain(wing, moving).rotation[0, :, 0].real
     # Written so that what is not finite does not pass.
     sound = bool(np.isfinite(shape.line).all() and np.isfinite(shape.velocity).all())
     for e in range(elements):
@@ -135,9 +172,10 @@ def shape_of_edges(
         shape.normal,
         shape.span_direction,
         shape.chord,
+        shape.profile,
         shape.distal_fraction,
         shape.converged and sound,
-        shape.hinge_velocity,
+        shape.hinge_twist,
     )
     return shape, per_rate
 
@@ -151,18 +189,20 @@ def _no_shape(wing: WingArrays, elements: int) -> WingShape:
         normal=vectors,
         span_direction=vectors,
         chord=vectors[:, 0].copy(),
-        distal_fraction=np.zeros((elements, 2)),
+        profile=vectors,
+        distal_fraction=np.zeros((elements, wing.bone_length.size - 1)),
         converged=False,
-        hinge_velocity=np.zeros((wing.offset.size - wing.segment.size, elements, 3)),
+        hinge_twist=np.zeros((wing.offset.size - wing.segment.size, elements, 6)),
     )
 
 
 @kernel
 def _assemble(
+    wing: WingArrays,
     pairs: PairedEdges,
     guide: ComplexArray,
     edge: ComplexArray,
-    hinge_velocity: FloatArray,
+    hinge_twist: FloatArray,
     rounding: float,
     published: bool,
 ) -> WingShape:
@@ -190,7 +230,7 @@ def _assemble(
             for i in range(3):
                 up[i] /= size
         _cross(up, c, span[e])
-    distal_fraction = _distal_fractions(pairs.leading.real.copy(), edge.real.copy(), rounding)
+    arc = _leading_arc(pairs.leading.real.copy(), edge.real.copy())
     velocity = line[0::2].imag / COMPLEX_STEP
     return WingShape(
         line.real.copy(),
@@ -199,9 +239,10 @@ def _assemble(
         normal,
         span,
         chord,
-        distal_fraction,
+        _profiles(arc, wing.profile, rounding),
+        _distal_fractions(arc, wing.bone_end, rounding),
         pairs.converged,
-        hinge_velocity,
+        hinge_twist,
     )
 
 
@@ -218,9 +259,10 @@ def turned(shape: WingShape, R: FloatArray, spin: FloatArray) -> WingShape:
         velocity[e, 0] += spin[1] * p[2] - spin[2] * p[1]
         velocity[e, 1] += spin[2] * p[0] - spin[0] * p[2]
         velocity[e, 2] += spin[0] * p[1] - spin[1] * p[0]
-    hinge_velocity = np.empty_like(shape.hinge_velocity)
-    for h in range(hinge_velocity.shape[0]):
-        hinge_velocity[h] = shape.hinge_velocity[h] @ R.T
+    hinge_twist = np.empty_like(shape.hinge_twist)
+    for h in range(hinge_twist.shape[0]):
+        hinge_twist[h, :, :3] = np.ascontiguousarray(shape.hinge_twist[h, :, :3]) @ R.T
+        hinge_twist[h, :, 3:] = np.ascontiguousarray(shape.hinge_twist[h, :, 3:]) @ R.T
     return WingShape(
         line,
         velocity,
@@ -228,7 +270,8 @@ def turned(shape: WingShape, R: FloatArray, spin: FloatArray) -> WingShape:
         shape.normal @ R.T,
         shape.span_direction @ R.T,
         shape.chord,
+        shape.profile,
         shape.distal_fraction,
         shape.converged,
-        hinge_velocity,
+        hinge_twist,
     )

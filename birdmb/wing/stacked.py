@@ -22,9 +22,10 @@ class StackedShapes(NamedTuple):
     normal: FloatArray  # (P, N, 3)
     span_direction: FloatArray  # (P, N, 3)
     chord: FloatArray  # (P, N)
-    distal_fraction: FloatArray  # (P, N, 2)
+    profile: FloatArray  # (P, N, 3)
+    distal_fraction: FloatArray  # (P, N, B - 1)
     converged: BoolArray  # (P,)
-    hinge_velocity: FloatArray  # (P, H, N, 3)
+    hinge_twist: FloatArray  # (P, H, N, 6)
     singly: IntArray  # (M,) angles whose own effect on the velocity is known
     rates: FloatArray  # (P, M) rad/s of these, of which `velocity` is made
     velocity_per_rate: FloatArray  # (P, M, N, 3) m
@@ -65,7 +66,7 @@ def _made_singly(
         wing_shape(wing, *of_one, elements=elements, rounding=rounding, published=published)
         for of_one in zip(angles, rates, strict=True)
     ]
-    line, velocity, chords, normal, span, chord, distal_fraction, converged, per_hinge = (
+    line, velocity, chords, normal, span, chord, profile, distal_fraction, converged, per_hinge = (
         np.array(arrays) for arrays in zip(*shapes, strict=True)
     )
     return StackedShapes(
@@ -75,6 +76,7 @@ def _made_singly(
         normal,
         span,
         chord,
+        profile,
         distal_fraction,
         converged,
         per_hinge,
@@ -102,26 +104,29 @@ def _made(
         np.empty((count, elements, 3)),
         np.empty((count, elements, 3)),
         np.empty((count, elements)),
-        np.empty((count, elements, 2)),
+        np.empty((count, elements, 3)),
+        np.empty((count, elements, wing.bone_length.size - 1)),
         np.empty(count, np.bool_),
-        np.empty((count, hinges, elements, 3)),
+        np.empty((count, hinges, elements, 6)),
         moving,
         rates[:, moving],
         np.empty((count, moving.size, elements, 3)),
     )
     for k in range(count):
-        shape, stack.velocity_per_rate[k] = shape_of_edges(
+        shape, per_rate = shape_of_edges(
             wing, angles[k], rates[k], elements, rounding, published, moving
         )
+        stack.velocity_per_rate[k] = per_rate[:, :, :3]
         stack.line[k] = shape.line
         stack.velocity[k] = shape.velocity
         stack.chord_direction[k] = shape.chord_direction
         stack.normal[k] = shape.normal
         stack.span_direction[k] = shape.span_direction
         stack.chord[k] = shape.chord
+        stack.profile[k] = shape.profile
         stack.distal_fraction[k] = shape.distal_fraction
         stack.converged[k] = shape.converged
-        stack.hinge_velocity[k] = shape.hinge_velocity
+        stack.hinge_twist[k] = shape.hinge_twist
     return stack
 
 
@@ -135,9 +140,10 @@ def shape_at(stack: StackedShapes, k: int) -> WingShape:
         stack.normal[k],
         stack.span_direction[k],
         stack.chord[k],
+        stack.profile[k],
         stack.distal_fraction[k],
         stack.converged[k],
-        stack.hinge_velocity[k],
+        stack.hinge_twist[k],
     )
 
 

@@ -6,7 +6,7 @@ import pytest
 from birdmb.aerodynamics.airframe import AeroConstants
 from birdmb.aerodynamics.body_drag import BodyDrag
 from birdmb.aerodynamics.elements import circulation_system, place_elements
-from birdmb.aerodynamics.joints import torques, velocity_per_joint_rate
+from birdmb.aerodynamics.joints import torques, twist_per_joint_rate
 from birdmb.aerodynamics.prescribed import (
     at_phase,
     driver_motion,
@@ -18,7 +18,7 @@ from birdmb.aerodynamics.tail import TailSurface
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.chain import joint_chain
 from birdmb.wing.shape import WingShape, wing_shape
-from tests.aerodynamics.pairs import element_loads, resultant
+from tests.aerodynamics.pairs import THIN, element_loads, resultant
 
 # Small, so that what is left is the discretisation and not alpha squared.
 DENSITY, SPEED, ALPHA = 1.225, 10.0, 1e-3
@@ -42,16 +42,17 @@ def flat_wing(chord_at, elements, semi_span=1.0, plunge=0.0):
         unit([0.0, 0.0, -1.0], (n, 1)),
         unit([0.0, 1.0, 0.0], (n, 1)),
         chord_at(y[0::2]),
+        unit(THIN, (n, 1)),
         np.zeros((n, 2)),
         True,
-        np.zeros((0, n, 3)),
+        np.zeros((0, n, 6)),
     )
 
 
 def coefficients(shape, area, u, w):
     """Lift and induced-drag coefficients in wind axes."""
     placed = place_elements(shape, np.zeros(3))
-    fx, fz, _ = resultant(placed, element_loads(placed, DENSITY, 0.0, u, w, 0.0).force)
+    fx, fz, _ = resultant(placed, element_loads(placed, DENSITY, 0.0, u, w, 0.0))
     V = np.hypot(u, w)
     lift, drag = (-fz * u + fx * w) / V, (-fx * u - fz * w) / V
     q = 0.5 * DENSITY * V**2 * area
@@ -185,10 +186,10 @@ def test_force_against_far_field_momentum():
     placed = place_elements(flat_wing(lambda y: 0.2 + 0 * y, 64), np.zeros(3))
     loads = element_loads(placed, DENSITY, 0.0, *wind(0.0), 0.0)
     tilted = element_loads(placed, DENSITY, 0.0, *wind(ALPHA), 0.0)
-    assert np.abs(loads.force).max() < 1e-14
+    assert np.abs(loads.wrench).max() < 1e-14
     gamma, dy = tilted.circulation, placed.width
     u, w = wind(ALPHA)
-    fx, fz, _ = resultant(placed, tilted.force)
+    fx, fz, _ = resultant(placed, tilted)
     # In the wing's plane the bound vortex feels half of the downwash far behind it.
     downwash = placed.induced_z @ gamma
     drag = 2 * DENSITY * np.sum(gamma * downwash * dy)
@@ -243,7 +244,7 @@ def test_derivatives_by_the_state_are_exact(wing):
         errors.append(np.abs(np.column_stack(differences) - exact).max())
     assert errors[0] / errors[1] == pytest.approx(4, rel=0.05)
     direct = element_loads(placed, DENSITY, PROFILE, *twist[planar])
-    np.testing.assert_allclose(loads(twist)[::2, 0], resultant(placed, direct.force), rtol=1e-12)
+    np.testing.assert_allclose(loads(twist)[::2, 0], resultant(placed, direct), rtol=1e-12)
 
 
 def test_the_split_between_bones_moves_no_load(wing):
@@ -254,12 +255,12 @@ def test_the_split_between_bones_moves_no_load(wing):
     angles, rates, _ = driver_motion(wing, 0.03)
     shape = wing_shape(wing, angles, rates, 16, 0.5, False)
     placed = place_elements(shape, wing.root)
-    force = element_loads(placed, DENSITY, 0.0, 18.0, -2.0, 0.3).force
+    wrench = element_loads(placed, DENSITY, 0.0, 18.0, -2.0, 0.3).wrench
     chain = joint_chain(wing, angles)
 
     def about_joints(beyond):
-        moved = velocity_per_joint_rate(wing.root, wing.segment, chain, placed.position, beyond)
-        return torques(moved, force)
+        moved = twist_per_joint_rate(wing.root, wing.segment, chain, placed.position, beyond)
+        return torques(moved, wrench)
 
     found = about_joints(shape.distal_fraction)
     nothing, everything = about_joints(np.zeros((16, 2))), about_joints(np.ones((16, 2)))
@@ -268,5 +269,5 @@ def test_the_split_between_bones_moves_no_load(wing):
         assert np.abs(other[3:] - found[3:]).max() > 1e-3
     np.testing.assert_array_equal(nothing[3:], 0.0)
     # By hand: the moment of all forces about the flap's axis through the shoulder.
-    moment = np.cross(placed.position - wing.root, force).sum(axis=0)
+    moment = np.cross(placed.position - wing.root, wrench[:, :3]).sum(axis=0)
     np.testing.assert_allclose(found[1], chain.axis[1] @ moment, rtol=1e-12)

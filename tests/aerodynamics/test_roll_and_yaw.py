@@ -8,6 +8,7 @@ from birdmb.aerodynamics.pair import pair_loads
 from birdmb.aerodynamics.twist_loads import mirrored
 from birdmb.wing.shape import WingShape
 
+from .pairs import THIN
 from .test_circulation import flat_wing
 
 DENSITY = 1.225
@@ -18,8 +19,9 @@ def wrench(placed, twist):
     """Wrench (6,) of both wings."""
     total = np.zeros(6)
     for image, loads in zip((np.array, mirrored), _both(placed, twist), strict=True):
-        moments = np.cross(placed.position, loads.force)
-        total += image(np.concatenate([loads.force.sum(axis=0), moments.sum(axis=0)]))
+        force = loads.wrench[:, :3]
+        moments = np.cross(placed.position, force)
+        total += image(np.concatenate([force.sum(axis=0), moments.sum(axis=0)]))
     return total
 
 
@@ -58,7 +60,8 @@ def plane_wing(elements):
     each = (elements, 1)
     return WingShape(
         line, still, np.tile(back, each), np.tile(up, each), np.tile(span, each),
-        chord[0::2] * np.cos(sweep), np.zeros((elements, 2)), True, np.zeros((0, elements, 3)),
+        chord[0::2] * np.cos(sweep), np.tile(THIN, each), np.zeros((elements, 2)), True,
+        np.zeros((0, elements, 6)),
     )  # fmt: skip
 
 

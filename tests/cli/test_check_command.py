@@ -13,6 +13,11 @@ def test_what_the_bird_is(run):
     for row in (
         "mass of the whole bird 1.26 kg",
         "span, joints at zero 1.420 m",
+        "aspect ratio, joints at zero 10.7",
+        "speed U at lift coefficient 0.5 14.7 m/s",
+        "Reynolds number of the mean chord at U 1.3e+05",
+        "reduced frequency at U 0.11",
+        "Strouhal number at U 0.22",
         "elements per wing 32 orthogonal",
         "humerus 0.134 0.01",
         "shoulder.flap humerus compliant 0.00 42.00 180.00",

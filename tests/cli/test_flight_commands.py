@@ -19,9 +19,33 @@ def test_trim_writes_the_bird_that_it_found(run, tmp_path):
     assert done.exit_code == 0, done.stderr
     assert "speed 13.0000 m/s" in done.stdout
     assert "stable" in done.stdout
-    cycle = birdmb.find_limit_cycle(birdmb.RigidModel(birdmb.load_bird(out)))
+    bird = birdmb.load_bird(out).with_values({"wing.discretisation.elements": 8})
+    cycle = birdmb.find_limit_cycle(birdmb.RigidModel(bird))
     assert cycle.mean_speed == pytest.approx(13.0, abs=1e-5)
     assert cycle.mean_climb_rate == pytest.approx(0.0, abs=1e-5)
+
+
+def test_trim_keeps_the_file_and_what_was_set_for_the_bird(run, tmp_path):
+    """How finely the search computed is none of the bird's values."""
+    out = tmp_path / "trimmed.toml"
+    done = run(
+        "trim", TAIL, "--model", "rigid", "--out", str(out), "--set", "tail.opening_deg=20", *COARSE
+    )  # fmt: skip
+    assert done.exit_code == 0, done.stderr
+    assert "not the wing.discretisation.elements=8 of this search" in done.stdout
+    before = (TOPOLOGIES / "ibis_tail.toml").read_text().splitlines()
+    about, after = out.read_text().splitlines()[:3], out.read_text().splitlines()[3:]
+    roll = birdmb.load_bird(out).value("forearm.roll.offset_deg")
+    assert about == [
+        f"# Trimmed to climb rate 0 m/s (rigid model): forearm.roll.offset_deg = {roll:.6g}.",
+        "# Set before: tail.opening_deg=20.",
+        "# Found with wing.discretisation.elements=8, which is not kept.",
+    ]
+    assert [line for line, old in zip(after, before, strict=True) if line != old] == [
+        "opening_deg = 20.0              # angle between its sides, 0 if furled",
+        f"offset_deg = {roll}  # levels the flight",
+    ]
+    assert birdmb.load_bird(out).wing.discretisation == "converged"
 
 
 def test_no_trim_is_a_sentence(run):

@@ -5,8 +5,6 @@ import pytest
 from birdmb.errors import StateError
 from birdmb.studies.validation import Case
 
-from .conftest import TOPOLOGIES
-
 
 def lost():
     raise StateError("the flight diverged.")
@@ -14,31 +12,21 @@ def lost():
 
 @pytest.fixture
 def cases(monkeypatch):
-    asked = []
-
-    def published_cases(topologies):
-        asked.append(topologies)
+    def published_cases():
         return [
             Case("chapter 9", "birdmb cycle ibis.toml", {"u, m/s": 18.0}, lambda: {"u, m/s": 17.5}),
             Case("chapter 10", "birdmb cycle lost.toml", {"u, m/s": 18.0}, lost),
         ]
 
     monkeypatch.setattr("birdmb.cli.validate.published_cases", published_cases)
-    return asked
 
 
-def test_each_case_is_printed_with_its_command_and_difference(run, cases):
-    result = run("validate", "--topologies", str(TOPOLOGIES))
+@pytest.mark.usefixtures("cases")
+def test_each_case_is_printed_with_its_command_and_difference(run):
+    result = run("validate")
     assert result.exit_code == 0
-    assert cases == [TOPOLOGIES]
     words = [line.split() for line in result.stdout.splitlines()]
     assert ["u,", "m/s", "18", "17.5", "-0.5"] in words
     assert "  birdmb cycle ibis.toml" in result.stdout
     assert "nothing computed: the flight diverged." in result.stdout
     assert "computing 2 published cases" in result.stderr
-
-
-def test_a_directory_without_the_birds_is_told(run, tmp_path):
-    result = run("validate", "--topologies", str(tmp_path))
-    assert result.exit_code == 2
-    assert "no ibis.toml here; name the directory" in result.stderr

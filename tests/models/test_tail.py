@@ -5,7 +5,8 @@ import pytest
 
 import birdmb
 from birdmb.models.energy import work_by_sign
-from birdmb.topology import BONES
+
+BONES = ("humerus", "forearm", "hand")
 
 
 def test_the_case_of_chapter_6(tail_cycle):

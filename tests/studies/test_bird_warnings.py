@@ -1,12 +1,19 @@
 """Warnings of what is possible, but probably not meant, about a bird."""
 
+import tomllib
+
+import numpy as np
 import pytest
 
 from birdmb.studies.bird_warnings import bird_warnings, load_warnings
 from birdmb.studies.refinement import LoadChange
+from birdmb.topology import Bird, load_bird
 
-POINTS = {f"segments.{bone}.inertia": [0, 0, 0] for bone in ("humerus", "forearm", "hand")}
-MASSLESS = POINTS | {f"segments.{bone}.mass": 0 for bone in ("humerus", "forearm", "hand")}
+from ..cli.pigeon import PIGEON
+
+BONES = ("humerus", "forearm", "hand")
+POINTS = {f"segments.{bone}.inertia": [0, 0, 0] for bone in BONES}
+MASSLESS = POINTS | {f"segments.{bone}.mass": 0 for bone in BONES}
 
 # Where no feather reaches across the plane of symmetry, m.
 WIDE = 0.08
@@ -29,7 +36,7 @@ CASES = {
     "a line across the plane": ({"wing.root.y": 0.005}, "wing.root.y must be 0.0166 m or more"),
     "no gap over the body": ({"wing.root.y": 0.0}, "wing.root.y must be 0.0166 m or more"),
     "wings through one another": (
-        {"shoulder.flap.offset_deg": -90, "shoulder.flap.amplitude_deg": 100},
+        {"shoulder.flap.offset_deg": -85, "shoulder.flap.amplitude_deg": 85},
         "the wings swing through one another",
     ),
     "feathers forwards": (
@@ -71,6 +78,19 @@ CASES = {
         },
         "the bird glides",
     ),
+    "in mercury": (
+        {"air.kinematic_viscosity": 1.1e-7},
+        "the Reynolds number of the mean chord is 1.8e+07 at",
+    ),
+    "fast beats": ({"gait.frequency": 7.5}, "the reduced frequency is 0.21 at 14.7 m/s"),
+    "degrees taken for rad": (
+        {"elbow.sweep.amplitude": 1.6},
+        "elbow.sweep turns through 183.3 degrees in a beat",
+    ),
+    "an offset in degrees taken for rad": (
+        {"shoulder.pitch.offset": 4 * np.pi},
+        "shoulder.pitch gets to 720.8 degrees, more than half a turn",
+    ),
 }
 
 
@@ -79,3 +99,22 @@ def test_warnings(ibis, values, says):
     warnings = bird_warnings(ibis.with_values({"wing.root.y": WIDE} | values))
     assert len(warnings) == (says is not None), warnings
     assert says is None or says in warnings[0]
+
+
+def test_a_pigeon_is_told_of_its_wings_through_one_another():
+    pigeon = Bird.model_validate(tomllib.loads(PIGEON))
+    (warning,) = bird_warnings(pigeon)
+    assert "the tip of feather root reaches 20 mm across the plane of symmetry" in warning
+    above = pigeon.with_values({"shoulder.flap.offset_deg": 60})
+    assert "swing through one another" in bird_warnings(above)[0]
+
+
+def test_each_side_has_its_own_motion(ibis):
+    bird = ibis.with_values({"wing.root.y": WIDE, "elbow.sweep.left.amplitude": 1.6})
+    assert any(w.startswith("elbow.sweep.left turns through 183") for w in bird_warnings(bird))
+
+
+def test_a_wing_of_sections_that_crosses_the_plane_is_told_by_its_section():
+    gull = load_bird("gull_glider").with_values({"shoulder.sweep.offset_deg": -40.0})
+    (warning,) = [text for text in bird_warnings(gull) if "across the plane" in text]
+    assert warning.startswith("the trailing end of section root reaches ")

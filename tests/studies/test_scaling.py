@@ -5,7 +5,7 @@ import pytest
 
 import birdmb
 from birdmb.studies.scaling import scale_bird
-from birdmb.topology.writing import bird_text, write_bird
+from birdmb.topology.writing import bird_text
 from birdmb.wing.outline import span_and_area
 
 
@@ -24,6 +24,40 @@ def test_span_area_and_frequency_follow_the_laws(birds, mass):
         assert span == pytest.approx(1.17 * mass**0.39)
         assert area == pytest.approx(0.16 * mass**0.72)
         assert bird.gait.frequency == pytest.approx(3.87 * mass**-0.33)
+
+
+def test_what_is_given_goes_before_the_laws(birds):
+    """The robin-sized task of a user: a mass, a span and a frequency of his own."""
+    for like in birds:
+        bird = scale_bird(like, 0.35, span=0.65, frequency=7.0).bird
+        span, area = span_and_area(bird)
+        assert (bird.total_mass, span, bird.gait.frequency) == pytest.approx((0.35, 0.65, 7.0))
+        by_law = (1.17 * 0.35**0.39) ** 2 / (0.16 * 0.35**0.72)
+        assert span**2 / area == pytest.approx(by_law)
+
+
+@pytest.mark.parametrize("given", [{"span": 0.9}, {"frequency": 6.0}])
+def test_a_mass_that_is_not_given_follows_from_the_rest(ibis, given):
+    bird = scale_bird(ibis, **given).bird
+    mass = bird.total_mass
+    laws = {"span": 1.17 * mass**0.39, "frequency": 3.87 * mass**-0.33}
+    for name, value in given.items():
+        assert laws[name] == pytest.approx(value)
+    assert span_and_area(bird)[0] == pytest.approx(laws["span"])
+    assert bird.gait.frequency == pytest.approx(laws["frequency"])
+
+
+def test_a_wing_of_sections_and_what_is_attached_scale_too():
+    gull = birdmb.load_bird("gull_glider")
+    payload = {"name": "payload", "on": "body", "mass": 0.05, "position": [0.02, 0.0, 0.01]}
+    document = gull.model_dump(exclude_unset=True) | {"attachments": [payload]}
+    like = birdmb.Bird.model_validate(document)
+    bird = scale_bird(like, 8 * like.total_mass).bird
+    assert span_and_area(bird) == pytest.approx(
+        (1.17 * bird.total_mass**0.39, 0.16 * bird.total_mass**0.72)
+    )
+    assert bird.attachments[0].mass == pytest.approx(0.4)
+    assert bird.attachments[0].position == pytest.approx((0.04, 0.0, 0.02))
 
 
 def test_what_else_scales(ibis_tail):
@@ -57,14 +91,19 @@ def test_the_assumptions_are_said(ibis, ibis_compliant):
 
 @pytest.mark.parametrize("mass", [0.0, -1.0, np.inf, np.nan])
 def test_impossible_masses(ibis, mass):
-    with pytest.raises(birdmb.BirdmbError, match="mass must be positive"):
+    with pytest.raises(birdmb.ArgumentError, match="mass must be positive, in kg, not"):
         scale_bird(ibis, mass)
+
+
+def test_a_scaling_to_nothing_in_particular(ibis):
+    with pytest.raises(birdmb.ArgumentError, match="give the mass, the span or the frequency"):
+        scale_bird(ibis)
 
 
 def test_a_bird_that_was_written_is_read_as_the_same(birds, tmp_path):
     changed = birds[0].with_values({"forearm.roll.offset": 0.123456789012345, "tail": None})
     for bird in (*birds, changed, scale_bird(birds[2], 0.7).bird):
-        write_bird(bird, tmp_path / "bird.toml", ["A line."])
+        bird.save(tmp_path / "bird.toml", about=["A line."])
         assert birdmb.load_bird(tmp_path / "bird.toml") == bird
     text = bird_text(birds[0], ["One.", "Two."])
     assert text.startswith("# One.\n# Two.\n")

@@ -4,12 +4,11 @@ import pytest
 
 import birdmb
 from birdmb.studies.validation import Case, compare, published_cases
-from tests.conftest import TOPOLOGIES
 
 
 @pytest.fixture(scope="module")
 def cases():
-    return published_cases(TOPOLOGIES)
+    return published_cases()
 
 
 def test_every_case_names_its_command_and_its_numbers(cases):

@@ -16,6 +16,7 @@ CHOICE = (
     'must be "converged" or "published", a whole number of elements per wing, '
     "or a table of scheme, elements and rounding"
 )
+FINENESS = "(how finely the wing's loads are computed)"
 INERTIA = (
     "(inertia about the segment's centre of mass, kg m2: three moments about x, y, z or a "
     "3x3 tensor)"
@@ -179,14 +180,12 @@ MISTAKES = {
     "joint on an unknown segment": (
         'name = "shoulder.flap"\nsegment = "humerus"',
         'name = "shoulder.flap"\nsegment = "ulna"',
-        'shoulder.flap.segment: must be "humerus", "forearm" or "hand", not "ulna" '
-        "(segment that the joint carries)",
+        'shoulder.flap.segment: no segment is called "ulna"; the nearest: hand, humerus, forearm',
     ),
     "feather on an unknown bone": (
         TIP,
         'name = "1"\nbone = "thumb"\nposition = 1.0',
-        'feathers.1.bone: must be "humerus", "forearm" or "hand", not "thumb" '
-        "(bone that the feather is rooted on)",
+        'feathers.1.bone: no segment is called "thumb"; the nearest: humerus, hand, forearm',
     ),
     "feather beyond its bone": (
         TIP,
@@ -262,17 +261,17 @@ MISTAKES = {
     "unknown preset": (
         'discretisation = "converged"',
         'discretisation = "coarse"',
-        f'wing.discretisation: {CHOICE}, not "coarse"',
+        f'wing.discretisation: {CHOICE}, not "coarse" {FINENESS}',
     ),
     "half an element": (
         'discretisation = "converged"',
         "discretisation = 8.5",
-        f"wing.discretisation: {CHOICE}, not 8.5",
+        f"wing.discretisation: {CHOICE}, not 8.5 {FINENESS}",
     ),
     "one element": (
         'discretisation = "converged"',
         "discretisation = 1",
-        "wing.discretisation: must be 2 or more, not 1",
+        f"wing.discretisation: must be 2 or more, not 1 {FINENESS}",
     ),
     "too round": (
         'discretisation = "converged"',

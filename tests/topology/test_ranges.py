@@ -23,7 +23,7 @@ NUMBERS = {
 # Where 0 is an ordinary number, next to nothing is, too.
 ZERO_IS_ORDINARY = (
     *("root.x", "root.z", "apex.x", "apex.z", "offset", "amplitude", "phase", "rest", "rest_angle"),
-    *("_deg", "incidence", "opening", "inertia_xz"),
+    *("_deg", "incidence", "opening", "inertia_xz", "zero_lift_angle", "moment_coefficient"),
 )
 
 

@@ -78,7 +78,7 @@ def test_hinges_at_zero_leave_the_wing_as_it_is(hinged, firm, published):
     expected = wing_shape(firm, angles[:6], rates[:6], 8, ROUNDING, published)
     for name in ("line", "velocity", "chord_direction", "normal", "chord"):
         np.testing.assert_allclose(getattr(shape, name), getattr(expected, name), atol=1e-13)
-    assert expected.hinge_velocity.shape == (0, 8, 3)
+    assert expected.hinge_twist.shape == (0, 8, 6)
 
 
 @pytest.mark.parametrize("published", [False, True])
@@ -89,12 +89,18 @@ def test_velocities_per_hinge_are_the_derivatives_of_the_positions(hinged, publi
     for hinge in (0, 1):
         step = h * (np.arange(8) == 6 + hinge)
         ends = [
-            wing_shape(hinged, angles + s, rates, n, ROUNDING, published).line[0::2]
-            for s in (step, -step)
+            wing_shape(hinged, angles + s, rates, n, ROUNDING, published) for s in (step, -step)
         ]
-        difference = (ends[0] - ends[1]) / (2 * h)
+        difference = (ends[0].line - ends[1].line)[0::2] / (2 * h)
         assert np.abs(difference).max() > 0.01
-        np.testing.assert_allclose(shape.hinge_velocity[hinge], difference, atol=1e-9)
+        np.testing.assert_allclose(shape.hinge_twist[hinge, :, :3], difference, atol=1e-9)
+        # The chord's direction turns with the angular velocity: c' = omega x c.
+        turning = (ends[0].chord_direction - ends[1].chord_direction) / (2 * h)
+        spun = np.cross(shape.hinge_twist[hinge, :, 3:], shape.chord_direction)
+        assert np.abs(turning).max() > 0.1
+        # Times the chord, for differences lose the direction of one that is next to nothing.
+        chord = shape.chord[:, None]
+        np.testing.assert_allclose(chord * spun, chord * turning, atol=1e-9)
 
 
 def test_velocities_add_up(hinged):
@@ -103,7 +109,7 @@ def test_velocities_add_up(hinged):
     still = rates * (np.arange(8) < 6)
     whole = wing_shape(hinged, angles, rates, 16, ROUNDING, False)
     joints = wing_shape(hinged, angles, still, 16, ROUNDING, False)
-    hinges = np.tensordot(rates[6:], whole.hinge_velocity, axes=1)
+    hinges = np.tensordot(rates[6:], whole.hinge_twist[:, :, :3], axes=1)
     np.testing.assert_allclose(whole.velocity, joints.velocity + hinges, atol=1e-13)
 
 
@@ -128,8 +134,8 @@ def test_torque_about_a_hinge_is_the_work_of_the_loads(hinged):
     angles, rates = posed(hinged, 0.03)
     shape = wing_shape(hinged, angles, rates, 16, ROUNDING, False)
     placed = place_elements(shape, hinged.root)
-    force = element_loads(placed, 1.225, 0.0, 18.0, -2.0, 0.3).force
-    torque = torques(shape.hinge_velocity, force)
+    wrench = element_loads(placed, 1.225, 0.0, 18.0, -2.0, 0.3).wrench
+    torque, force = torques(shape.hinge_twist, wrench), wrench[:, :3]
     h = 1e-5
     for hinge in (0, 1):
         step = h * (np.arange(8) == 6 + hinge)

@@ -33,7 +33,7 @@ def lift(wing, elements, angles=STILL):
     assert shape.converged
     placed = place_elements(shape, wing.root)
     loads = element_loads(placed, DENSITY, 0.0, *wind(), 0.0)
-    fx, fz, _ = resultant(placed, loads.force)
+    fx, fz, _ = resultant(placed, loads)
     return -fz * np.cos(ALPHA) + fx * np.sin(ALPHA), loads.circulation
 
 

@@ -1,0 +1,38 @@
+"""The values by which a flight is trimmed if the user names none."""
+
+from __future__ import annotations
+
+from birdmb.errors import ArgumentError
+from birdmb.topology import Bird
+from birdmb.topology.roles import flap_joint, incidence_joint
+
+_INCIDENCE = (-30.0, 30.0)  # degrees
+_AMPLITUDE = (15.0, 70.0)  # degrees
+
+
+def default_parameters(bird: Bird, count: int) -> dict[str, tuple[float, float]]:
+    """Bounds (lowest, highest) by dotted name of the first one or two values to trim by.
+
+    The offset of the joint that turns the chords, then the amplitude of the one that flaps.
+
+    Raises:
+        ArgumentError: the bird has no such joint.
+    """
+    turning, flapping = incidence_joint(bird), flap_joint(bird)
+    if turning is None:
+        raise _no_default(bird, "turns the chords about the span", "offset_deg=-30:30")
+    parameters = {f"{turning.name}.offset_deg": _INCIDENCE}
+    if count > 1:
+        if flapping is None or not flapping.amplitude:
+            raise _no_default(bird, "flaps the wing", "amplitude_deg=15:70")
+        parameters[f"{flapping.name}.amplitude_deg"] = _AMPLITUDE
+    return parameters
+
+
+def _no_default(bird: Bird, purpose: str, example: str) -> ArgumentError:
+    joint = bird.joint_names[0] if bird.joint_names else "shoulder.flap"
+    return ArgumentError(
+        f"{bird.name}: it is not clear which one joint {purpose}; say what to trim by, with its "
+        f"bounds, as --by {joint}.{example} or "
+        f'parameters={{"{joint}.{example.partition("=")[0]}": (low, high)}}.'
+    )

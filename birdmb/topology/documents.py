@@ -1,0 +1,42 @@
+"""Reading the text of a topology file."""
+
+from __future__ import annotations
+
+import tomllib
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from birdmb.errors import TopologyError
+
+_LARGEST = 1_000_000  # bytes
+
+
+def read_document(path: str | PathLike[str]) -> tuple[str, dict[str, Any]]:
+    """The text of a topology file and its values, not validated.
+
+    Raises:
+        TopologyError: the file cannot be read, or is no TOML.
+    """
+    origin = str(path)
+    try:
+        with Path(path).open("rb") as file:
+            content = file.read(_LARGEST + 1)  # not all that a device has to give
+        if len(content) > _LARGEST:
+            raise TopologyError(f"{origin}: is larger than 1 MB; a topology file has a few kB")
+        text = content.decode("utf-8-sig")
+        return text, tomllib.loads(text)
+    except OSError as error:
+        reason = (error.strerror or "unknown reason").lower()
+        raise TopologyError(
+            f"{origin}: cannot be read ({reason}); it must be a topology file"
+        ) from error
+    except UnicodeDecodeError as error:
+        raise TopologyError(f"{origin}: is no text in UTF-8; a topology file must be") from error
+    except tomllib.TOMLDecodeError as error:
+        raise TopologyError(f"{origin}: is not valid TOML: {error}") from error
+    except (ValueError, RecursionError) as error:  # which the parser lets through
+        raise TopologyError(
+            f"{origin}: cannot be read as TOML; a number has thousands of digits, or brackets are "
+            "nested too deep"
+        ) from error
