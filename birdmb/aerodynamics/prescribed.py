@@ -55,12 +55,12 @@ def driver_motion_along(
     wing: WingArrays, times: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """As `driver_motion`, each (P, A), at `times` (P,) s."""
-    argument = wing.angular_frequency * times[:, None] + wing.phase
-    swing = wing.amplitude * np.sin(argument)
+    rate = wing.angular_frequency * np.arange(1, wing.cosine.shape[1] + 1)  # of each harmonic
+    cosine, sine = np.cos(times[:, None] * rate), np.sin(times[:, None] * rate)
     return (
-        wing.offset + swing,
-        wing.angular_frequency * wing.amplitude * np.cos(argument),
-        -(wing.angular_frequency**2) * swing,
+        wing.offset + cosine @ wing.cosine.T + sine @ wing.sine.T,
+        (rate * cosine) @ wing.sine.T - (rate * sine) @ wing.cosine.T,
+        -(rate**2 * cosine) @ wing.cosine.T - (rate**2 * sine) @ wing.sine.T,
     )
 
 

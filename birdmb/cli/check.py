@@ -19,7 +19,7 @@ from birdmb.models.natural_oscillation import (
 from birdmb.studies.bird_warnings import bird_warnings, load_warnings
 from birdmb.studies.flight_regime import LIFT_COEFFICIENT, FlightRegime, flight_regime
 from birdmb.studies.refinement import LoadChange, load_change
-from birdmb.topology import SIDES, Bird
+from birdmb.topology import SIDES, Bird, Joint
 
 _DRAG_SPEED = 10.0  # m/s
 
@@ -30,6 +30,8 @@ def run(bird: Bird) -> None:
     with progress.shown():
         progress.doing("measuring the wing")
         tables = [_bird(bird), _segments(bird), _joints(bird)]
+        if any(not _is_one_sine(joint) for _, joint in _joints_by_side(bird)):
+            tables.append(_drivers(bird))
         if bird.compliant_joints:
             tables.append(_oscillations("Compliant joints", "joint", joint_oscillations(bird)))
         if bird.hinged_feathers:
@@ -139,7 +141,22 @@ def _joints(bird: Bird) -> Table:
         "joint", "segment", "mode", "offset", "amplitude", "phase",
         numbers=(3, 4, 5),
     )  # fmt: skip
-    rows = [
+    for name, joint in _joints_by_side(bird):
+        sine = _is_one_sine(joint)
+        swing = map(_in_degrees, (joint.gain * joint.amplitude, joint.phase))
+        table.add_row(
+            name,
+            joint.segment,
+            joint.mode,
+            _in_degrees(joint.driver.mean),
+            *(swing if sine else ("*", "*")),
+        )
+    return table
+
+
+def _joints_by_side(bird: Bird) -> list[tuple[str, Joint]]:
+    """The joints by name, or those of each side where the sides differ."""
+    return [
         (name, own)
         for joint in bird.joints
         for name, own in (
@@ -148,15 +165,35 @@ def _joints(bird: Bird) -> Table:
             else [(f"{joint.name}.{side}", joint.on(side)) for side in SIDES]
         )
     ]
-    for name, joint in rows:
-        angles = (joint.offset, joint.amplitude, joint.phase)
+
+
+def _drivers(bird: Bird) -> Table:
+    table = table_of(
+        "* Drivers other than sines, degrees; residuals, error",
+        "joint", "from", "to", "harmonics", "rms", "largest", "error",
+        numbers=(1, 2, 3, 4, 5, 6),
+    )  # fmt: skip
+    for name, joint in _joints_by_side(bird):
+        driver, fit = joint.driver, joint.driver.fit
+        if _is_one_sine(joint):
+            continue
+        left = (fit.rms_residual, fit.largest_residual, fit.truncation) if fit else ()
         table.add_row(
             name,
-            joint.segment,
-            joint.mode,
-            *(f"{np.degrees(angle):.2f}" for angle in angles),
+            *map(_in_degrees, driver.range),
+            f"{len(driver.cosine)}",
+            *(f"{np.degrees(angle):.2g}" for angle in left),
         )
     return table
+
+
+def _in_degrees(angle: float) -> str:
+    return f"{np.degrees(angle):.2f}"
+
+
+def _is_one_sine(joint: Joint) -> bool:
+    """Whether offset, amplitude and phase say all."""
+    return joint.samples is None and joint.driver.is_one_sine
 
 
 def _oscillations(title: str, kind: str, rows: dict[str, NaturalOscillation]) -> Table:

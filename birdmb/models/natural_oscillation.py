@@ -39,9 +39,9 @@ class NaturalOscillation:
 
 
 def joint_oscillation(bird: Bird, joint: Joint) -> NaturalOscillation:
-    """Stiffness, damping and carried inertia of a compliant joint, drivers at their offsets."""
+    """Stiffness, damping and carried inertia of a compliant joint, drivers at their means."""
     bird = bird.assembled
-    angles = np.array([j.offset for j in bird.joints])
+    angles = np.array([j.driver.mean for j in bird.joints])
     wing = wing_arrays(bird)
     chain = joint_chain(wing, angles)
     number = bird.joint_names.index(joint.name)

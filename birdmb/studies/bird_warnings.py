@@ -17,6 +17,7 @@ from birdmb.models.natural_oscillation import (
     oscillations_of,
 )
 from birdmb.models.rigid import RigidModel
+from birdmb.models.wing_model import STEPS_PER_BEAT
 from birdmb.studies.driven_motion import is_still, motion_warnings
 from birdmb.studies.flight_regime import flight_regime, regime_warnings
 from birdmb.studies.refinement import LARGEST_CHANGE, LoadChange
@@ -25,6 +26,10 @@ from birdmb.wing.outline import wing_outline
 
 _PHASES = 24
 _ROUND_OFF = 1e-9  # m
+# Of a harmonic: on fewer steps the error of a beat is many times that of a sine's, and collocation
+# took so many nodes where the harmonic had a tenth of the beat's rate.
+_STEPS_PER_PERIOD, _NODES_PER_PERIOD = 10, 8
+_SIGNIFICANT = 0.05  # rate of a harmonic, of that of the largest
 
 
 def bird_warnings(bird: Bird) -> list[str]:
@@ -52,11 +57,24 @@ def _on_joints(bird: Bird) -> Iterator[str]:
     if is_still(bird):
         yield "no joint's driver moves: the bird glides, and its limit cycle is a steady flight."
     for joint in bird.joints:
+        yield from _on_roughness(joint)
         if joint.mode == "compliant":
             for name, free in oscillations_of(bird, joint).items():
                 yield from _on_compliant(bird, joint, name, free)
         elif joint.stiffness is not None or joint.damping is not None:
             yield f"{joint.name} is prescribed: its stiffness and damping are not used."
+
+
+def _on_roughness(joint: Joint) -> Iterator[str]:
+    orders = [joint.on(side).driver.highest_harmonic(_SIGNIFICANT) for side in SIDES]
+    if (order := max(orders)) * _STEPS_PER_PERIOD > STEPS_PER_BEAT:
+        steps, nodes = _STEPS_PER_PERIOD * order, _NODES_PER_PERIOD * order
+        yield (
+            f"the driver of {joint.name} moves in harmonics up to order {order} of the beat, rough "
+            f"for the usual {STEPS_PER_BEAT} time steps a beat: let models take "
+            f"steps_per_beat={steps} or more, expect collocation to need about {nodes} nodes, or "
+            "keep fewer harmonics."
+        )
 
 
 def _on_compliant(bird: Bird, joint: Joint, name: str, free: NaturalOscillation) -> Iterator[str]:

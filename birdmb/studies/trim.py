@@ -87,7 +87,7 @@ def trim_flight(
         bird: the bird.
         parameters: bounds (lowest, highest) by dotted name; one parameter, or two with `speed`. By
             default the offset of the joint that turns the chords (forearm.roll of the ibis), and
-            the amplitude of the one that flaps.
+            the amplitude of the one that flaps, or its gain where it has no amplitude.
         climb_rate: wanted mean climb rate, m/s, upwards positive; 0 is level flight.
         speed: wanted mean speed (`FlightCycle.mean_speed`), m/s.
         model: makes the model of a bird, as `RigidModel` and `MultibodyModel` do.

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from birdmb.errors import ArgumentError
 from birdmb.topology import Bird
 from birdmb.topology.roles import flap_joint, incidence_joint
@@ -13,7 +15,8 @@ _AMPLITUDE = (15.0, 70.0)  # degrees
 def default_parameters(bird: Bird, count: int) -> dict[str, tuple[float, float]]:
     """Bounds (lowest, highest) by dotted name of the first one or two values to trim by.
 
-    The offset of the joint that turns the chords, then the amplitude of the one that flaps.
+    The offset of the joint that turns the chords, then the amplitude of the one that flaps; its
+    gain, which swings as far, where it moves by more than one sine.
 
     Raises:
         ArgumentError: the bird has no such joint.
@@ -23,9 +26,14 @@ def default_parameters(bird: Bird, count: int) -> dict[str, tuple[float, float]]
         raise _no_default(bird, "turns the chords about the span", "offset_deg=-30:30")
     parameters = {f"{turning.name}.offset_deg": _INCIDENCE}
     if count > 1:
-        if flapping is None or not flapping.amplitude:
+        if flapping is None or flapping.driver.is_still:
             raise _no_default(bird, "flaps the wing", "amplitude_deg=15:70")
-        parameters[f"{flapping.name}.amplitude_deg"] = _AMPLITUDE
+        if flapping.driver.is_one_sine and flapping.amplitude:
+            parameters[f"{flapping.name}.amplitude_deg"] = _AMPLITUDE
+        else:
+            low, high = flapping.driver.range
+            swing = math.degrees(high - low) / 2.0 / flapping.gain
+            parameters[f"{flapping.name}.gain"] = _AMPLITUDE[0] / swing, _AMPLITUDE[1] / swing
     return parameters
 
 

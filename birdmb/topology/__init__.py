@@ -3,6 +3,7 @@
 from birdmb.topology.airframe import Apex, Drag, Tail
 from birdmb.topology.attachments import Attachment
 from birdmb.topology.bird import Bird
+from birdmb.topology.drivers import Driver, Harmonic
 from birdmb.topology.feathers import Feather, Hinge
 from birdmb.topology.joints import SIDES, Joint, JointSide
 from birdmb.topology.loading import load_bird
@@ -16,6 +17,7 @@ from birdmb.topology.parts import (
     Root,
     Wing,
 )
+from birdmb.topology.samples import DriverFit
 from birdmb.topology.sections import Section
 from birdmb.topology.segments import Segment, Segments
 from birdmb.topology.values import parse_assignment
@@ -30,8 +32,11 @@ __all__ = [
     "Body",
     "Discretisation",
     "Drag",
+    "Driver",
+    "DriverFit",
     "Feather",
     "Gait",
+    "Harmonic",
     "Hinge",
     "Joint",
     "JointSide",

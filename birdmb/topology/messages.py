@@ -32,6 +32,7 @@ _EXPECTED = {
     "too_long": "must be a list of 3 entries",
     "model_type": "must be a table",
     "greater_than": "must be more than {gt:g}",
+    "less_than": "must be less than {lt:g}",
     "greater_than_equal": "must be {ge:g} or more",
     "less_than_equal": "must be {le:g} or less",
     OUT_OF_RANGE: "must be {wanted}",
@@ -84,7 +85,7 @@ def validated(model: type[ModelT], document: Mapping[str, Any], origin: str) -> 
     key = _dotted(location, document)
     # An angle in degrees was in radians when it was found to be wrong.
     given = detail["input"]
-    if str(location[-1]).endswith("_deg"):
+    if any(str(part).endswith("_deg") for part in location):
         given = _at(location, document)
     raise TopologyError(f"{origin}: {key}: {_explanation(model, location, detail, given)}{more}")
 
@@ -117,12 +118,11 @@ def _location(detail: ErrorDetails, document: object) -> Location:
     if detail["type"] == "missing" and isinstance(parts[-1], int):
         parts.pop()
     parts += detail.get("ctx", {}).get("keys", ())
-    for part in parts[:-1]:
-        document = _inside(document, part)
-    last = parts[-1] if parts else ""
-    # An angle given in degrees is reported under the key that the user wrote.
-    if isinstance(document, Mapping) and last not in document and f"{last}_deg" in document:
-        parts[-1] = f"{last}_deg"
+    for i, part in enumerate(parts):
+        # An angle given in degrees is reported under the key that the user wrote.
+        if isinstance(document, Mapping) and part not in document and f"{part}_deg" in document:
+            parts[i] = f"{part}_deg"
+        document = _inside(document, parts[i])
     return tuple(parts)
 
 
@@ -161,6 +161,8 @@ def _dotted(location: Location, document: object) -> str:
             name += f".{part}"
         elif isinstance(label := _inside(document, "name"), str):
             name = f".{label}" if name == ".joints" else f"{name}.{label}"
+        elif isinstance(order := _inside(document, "order"), int):
+            name += f".{order}"
         else:
             name += f" #{part + 1}"
     return name.removeprefix(".")

@@ -93,6 +93,12 @@ Stiffness = Annotated[
 ]
 Fraction = Annotated[_Positive, Field(le=1), _within(1e-6, 1.0, "0.5 is a usual one")]
 UnitInterval = Annotated[Real, Field(ge=0, le=1)]
+Gain = Annotated[_NonNegative, _within(1e-9, 1e3, "1 is the motion as given", or_zero=True)]
+Phase = Annotated[_NonNegative, Field(lt=1), _within(1e-12, 1.0, "parts of a beat", or_zero=True)]
+DownstrokeFraction = Annotated[
+    Real, _within(0.3, 0.7, "beyond, the shorter stroke would be too abrupt; give samples instead")
+]
+Order = Annotated[int, Strict(), Field(ge=1), _within(1, 500, "periods in a beat")]
 Elements = Annotated[
     int, Strict(), Field(ge=2), _within(2, 1024, "time grows with the cube of their number")
 ]

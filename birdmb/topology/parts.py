@@ -67,11 +67,20 @@ class Part(BaseModel):
                 continue
             if angle in given:
                 raise problem(f"given twice, as {angle} and {in_degrees}; keep one", in_degrees)
-            value = given[angle] = given.pop(in_degrees)
-            # What is no number is left as it is, for the check of the field to complain about.
-            if isinstance(value, float) or (isinstance(value, int) and abs(value) < 1e9):
-                given[angle] = value if isinstance(value, bool) else math.radians(value)
+            value = given.pop(in_degrees)
+            given[angle] = (
+                [_in_radians(each) for each in value]
+                if isinstance(value, list | tuple)
+                else _in_radians(value)
+            )
         return given
+
+
+def _in_radians(value: Any) -> Any:
+    """An angle in degrees; what is no number stays, for the check of its field to complain."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return value
+    return math.radians(value) if isinstance(value, float) or abs(value) < 1e9 else value
 
 
 class Air(Part):

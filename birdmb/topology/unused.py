@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from birdmb.topology.bird import Bird
 from birdmb.topology.joints import SIDES, Joint
 
 SPRING = ("stiffness", "damping", "cubic_stiffness", "stiffness_below")
+_PHASE = ("phase", "phase_deg")
+_SHAPE = ("amplitude", "amplitude_deg", *_PHASE, "harmonics", "downstroke_fraction")
 
 
 def unused_values(bird: Bird) -> dict[str, str]:
@@ -39,19 +41,25 @@ def unused_spring(joint: Joint) -> str:
 def _of_joint(joint: Joint) -> Iterator[tuple[str, str]]:
     if reason := unused_spring(joint):
         yield from ((f"{name}.{key}", reason) for name in own_names(joint) for key in SPRING)
-    still = {side: not joint.on(side).amplitude for side in SIDES}
-    places = [f"{joint.name}.{side}" for side in SIDES if still[side]]
-    if all(still.values()):
-        places.append(joint.name)
-    for name in places:
-        reason = f"{name} is not driven, its amplitude is 0"
-        yield from ((f"{name}.{key}", reason) for key in ("phase", "phase_deg"))
+    for name in _places_where(joint, lambda own: not own.amplitude):
+        reason = f"{name} has no sine that it would shape, its amplitude is 0"
+        yield from ((f"{name}.{key}", reason) for key in (*_PHASE, "downstroke_fraction"))
+    for name in _places_where(joint, lambda own: not own.gain):
+        yield from ((f"{name}.{key}", f"the gain of {name} is 0") for key in _SHAPE)
+    for name in _places_where(joint, lambda own: bool(own.gain) and own.driver.is_still):
+        yield f"{name}.gain", f"{name} is not driven"
     if joint.right and joint.left:
         for key in joint.right.own.keys() & joint.left.own.keys():
             reason = f"both sides of {joint.name} have {key} of their own"
             yield f"{joint.name}.{key}", reason
             if key in joint.angles:
                 yield f"{joint.name}.{key}_deg", reason
+
+
+def _places_where(joint: Joint, holds: Callable[[Joint], bool]) -> list[str]:
+    """Names of the sides of a joint of which it holds, and of the joint if it does of both."""
+    places = [f"{joint.name}.{side}" for side in SIDES if holds(joint.on(side))]
+    return [*places, joint.name] if len(places) == len(SIDES) else places
 
 
 def own_names(joint: Joint) -> tuple[str, ...]:

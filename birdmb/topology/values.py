@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from birdmb.errors import TopologyError
+from birdmb.topology.drivers import Harmonic
 from birdmb.topology.joints import SIDES, Joint, JointSide
 from birdmb.topology.messages import Location, nearest, shown
 from birdmb.topology.parts import Part, Wing
@@ -50,13 +51,11 @@ def named_places(bird: Part) -> dict[str, Location]:
 def _walk(part: Part, prefix: str, place: Location) -> Iterator[tuple[str, Location]]:
     for key in type(part).model_fields:
         child, here, name = getattr(part, key), (*place, key), f"{prefix}{key}"
-        if key in ("joints", "feathers", "sections", "attachments"):
-            for i, item in enumerate(child):
-                label = item.name if key == "joints" else f"{key}.{item.name}"
-                yield from _walk(item, f"{label}.", (*here, i))
-        elif isinstance(child, Segments):
-            for label, segment in child.items():
-                yield from _walk(segment, f"{name}.{label}.", (*here, label))
+        if named := _named_parts(name, child):
+            if key == "harmonics":
+                yield name, here
+            for label, where, item in named:
+                yield from _walk(item, f"{label}.", (*here, where))
         elif isinstance(part, Wing) and key == "discretisation":
             yield name, here
             yield from _walk(part.resolved_discretisation, f"{name}.", here)
@@ -67,12 +66,31 @@ def _walk(part: Part, prefix: str, place: Location) -> Iterator[tuple[str, Locat
             if type(part).model_fields[key].default is None:  # may be taken off as a whole
                 yield name, here
             yield from _walk(child, f"{name}.", here)
-        elif key != "name" or not place:  # a joint or feather is not renamed: names lead to it
+        # What names lead to, as a joint or a harmonic, is not renamed.
+        elif key not in ("name", "order") or not place:
             yield name, here
         if key in part.angles:
             yield f"{name}_deg", (*place, f"{key}_deg")
         if key == "shares":
             yield from ((f"{name}.{joint}", (*here, joint)) for joint, _ in child)
+
+
+def _named_parts(name: str, child: object) -> list[tuple[str, str | int, Part]]:
+    """The parts in a table or list of them, each with its dotted name and its place there."""
+    if isinstance(child, Segments):
+        return [(f"{name}.{label}", label, segment) for label, segment in child.items()]
+    if not (isinstance(child, tuple) and child and isinstance(child[0], Part)):
+        return []
+    found: list[tuple[str, str | int, Part]] = []
+    for i, item in enumerate(child):
+        if isinstance(item, Joint):
+            label = item.name
+        elif isinstance(item, Harmonic):
+            label = f"{name}.{item.order}"
+        else:
+            label = f"{name}.{item.name}"
+        found.append((label, i, item))
+    return found
 
 
 def place_of(name: str, known: Mapping[str, Location], owner: str) -> Location:
@@ -100,11 +118,18 @@ def value_at(document: Mapping[str, Any], place: Location) -> Any:
     table: Any = document
     for part in parents:
         table = {**table, **table.get(part, {})} if part in SIDES else table[part]
-    if key in SIDES and key not in table:
-        return None
     if key in table:
         return table[key]
-    return math.degrees(table[_other_unit(key)])
+    other = _other_unit(key)
+    if other in table:
+        return _in_degrees(table[other])
+    return Joint.model_fields[str(key).removesuffix("_deg")].default
+
+
+def _in_degrees(angle: Any) -> Any:
+    if isinstance(angle, list | tuple):
+        return tuple(map(math.degrees, angle))
+    return None if angle is None else math.degrees(angle)
 
 
 def of_a_side(place: Location) -> bool:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from birdmb._typing import BoolArray, FloatArray, IntArray
-from birdmb.topology import Bird
+from birdmb.topology import Bird, Driver
 
 
 class WingArrays(NamedTuple):
@@ -39,10 +39,10 @@ class WingArrays(NamedTuple):
     section_twist: FloatArray  # (S,) leading edge up
     bone_end: FloatArray  # (B,) where among the leading edge's vertices each bone ends
     profile: FloatArray  # (1 or S, 3) lift slope, zero-lift angle, moment coefficient
-    offset: FloatArray  # (A,) drivers: offset + amplitude sin(2 pi f t + phase)
-    amplitude: FloatArray
-    phase: FloatArray
-    angular_frequency: float
+    offset: FloatArray  # (A,) drivers: their means
+    cosine: FloatArray  # (A, K) and their factors of cos(k w t), k = 1 to K, w = 2 pi f
+    sine: FloatArray  # (A, K) and of sin(k w t)
+    angular_frequency: float  # w
 
 
 class JointArrays(NamedTuple):
@@ -74,7 +74,10 @@ def wing_arrays(bird: Bird) -> WingArrays:
     joints, feathers, angles = bird.joints, bird.feathers, bird.angle_names
     names, sections = bird.segments.names, bird.sections
     rest = [feather.hinge.rest for feather in feathers if feather.hinge]
-    still = [0.0] * len(rest)
+    drivers = [joint.driver for joint in joints] + [Driver(angle) for angle in rest]
+    series = np.zeros((2, len(drivers), max([1, *(len(driver.cosine) for driver in drivers)])))
+    for i, driver in enumerate(drivers):
+        series[:, i, : len(driver.cosine)] = driver.cosine, driver.sine
     return WingArrays(
         root=np.array([bird.wing.root.x, bird.wing.root.y, bird.wing.root.z]),
         half_thickness=bird.wing.half_thickness,
@@ -101,9 +104,9 @@ def wing_arrays(bird: Bird) -> WingArrays:
         section_twist=np.array([s.twist for s in sections], dtype=float),
         bone_end=_bone_ends(bird),
         profile=_profiles(bird),
-        offset=np.array([joint.offset for joint in joints] + rest),
-        amplitude=np.array([joint.amplitude for joint in joints] + still),
-        phase=np.array([joint.phase for joint in joints] + still),
+        offset=np.array([driver.mean for driver in drivers]),
+        cosine=series[0],
+        sine=series[1],
         angular_frequency=2.0 * np.pi * bird.gait.frequency,
     )
 

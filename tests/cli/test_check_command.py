@@ -48,6 +48,26 @@ def test_hinges_of_feathers(run):
     assert "feathers.5.hinge swings by itself at 3.99 Hz, close to" in " ".join(slow.stdout.split())
 
 
+def test_drivers_that_are_no_sine(run):
+    """Of 16 samples of a triangle one harmonic has 1/32 / sin(pi/16)^2 of the height, 82.11 deg.
+
+    It leaves 17.89 deg at the corners. Of the triangle itself it leaves 18.9, as 1 - 8/pi^2.
+    """
+    result = run(
+        "check", IBIS, "--set", "shoulder.flap.downstroke_fraction=0.4",
+        "--set", "elbow.sweep.amplitude=0", "--set", "elbow.sweep.phase=0",
+        "--set", "elbow.sweep.samples_deg=[0, 25, 50, 75, 100, 75, 50, 25, 0, -25, -50, -75, -100,"
+        " -75, -50, -25]", "--set", "elbow.sweep.sample_harmonics=1",
+    )  # fmt: skip
+    assert result.exit_code == 0, result.stderr
+    rows = [" ".join(line.split()) for line in result.stdout.splitlines()]
+    assert "shoulder.flap humerus prescribed 0.00 * *" in rows
+    assert "shoulder.flap -42.00 42.00 12" in rows
+    assert "elbow.sweep -52.11 112.11 1 8.2 18 26" in rows
+    tables = result.stdout.partition("\nWarning: ")[0]
+    assert max(map(len, tables.splitlines())) <= 80
+
+
 def test_warnings_are_printed_and_no_error(run):
     result = run("check", IBIS, "--set", "gravity=0")
     assert result.exit_code == 0

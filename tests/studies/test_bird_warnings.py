@@ -91,6 +91,20 @@ CASES = {
         {"shoulder.pitch.offset": 4 * np.pi},
         "shoulder.pitch gets to 720.8 degrees, more than half a turn",
     ),
+    "no amplitude, but harmonics": (
+        {"shoulder.flap.amplitude": 0, "shoulder.flap.harmonics": [{"order": 1, "sine": -0.5}]},
+        None,
+    ),
+    "a rough motion": (
+        {"shoulder.flap.harmonics": [{"order": 12, "amplitude_deg": 0.5}]},
+        "the driver of shoulder.flap moves in harmonics up to order 12 of the beat, rough for the "
+        "usual 60 time steps a beat: let models take steps_per_beat=120 or more",
+    ),
+    "a faint high harmonic": (
+        {"shoulder.flap.harmonics": [{"order": 12, "amplitude_deg": 0.05}]},
+        None,
+    ),
+    "a short downstroke": ({"shoulder.flap.downstroke_fraction": 0.35}, None),
 }
 
 

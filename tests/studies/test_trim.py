@@ -143,3 +143,14 @@ def test_multibody_bird_at_a_speed(near_neutral):
     assert trim.cycle.mean_climb_rate == pytest.approx(0.0, abs=1e-7)
     assert len(trim.values) == 2
     assert trim.cycle.model.bird.total_mass == pytest.approx(1.26)
+
+
+def test_a_flap_given_by_samples_is_trimmed_by_its_gain(coarse, quick):
+    """The default parameters: the same flight as by the amplitude."""
+    angles = coarse.joint("shoulder.flap").driver.at(np.arange(12) / 12)
+    sampled = coarse.with_joint("shoulder.flap", amplitude=0.0, phase=0.0, samples=angles, gain=0.9)
+    by_amplitude = trim_flight(coarse, speed=17.5, model=quick).values
+    by_gain = trim_flight(sampled, speed=17.5, model=quick).values
+    roll = "forearm.roll.offset_deg"
+    assert by_gain[roll] == pytest.approx(by_amplitude[roll], abs=1e-4)
+    assert 42.0 * by_gain["shoulder.flap.gain"] == pytest.approx(by_amplitude[AMPLITUDE], abs=1e-4)
