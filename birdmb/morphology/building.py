@@ -105,7 +105,7 @@ def segment_solids(
 def skin_masses(measured: Morphology) -> dict[str, float]:
     """Masses (kg) of skin and coverts by segment, in proportion to length times chord."""
     lengths = measured.lengths
-    areas = {name: lengths[name] * s.skin_chord for name, s in measured.segments.items()}
+    areas = {name: lengths[name] * s.skin_chord for name, s in measured.segments.root.items()}
     whole = sum(areas.values())
     return {
         name: measured.wing.skin_mass * area / whole if whole else 0.0
@@ -156,7 +156,7 @@ def _segment_tables(measured: Morphology, origin: str) -> dict[str, Any]:
     tables: dict[str, Any] = {}
     skin = skin_masses(measured)
     for name, length in measured.lengths.items():
-        segment = measured.segments[name]
+        segment = measured.segments.root[name]
         solids = list(segment_solids(segment, length, measured.wing.half_thickness, skin[name]))
         if not solids:
             raise TopologyError(

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import ConfigDict, Field, RootModel, field_validator, model_validator
 
 from birdmb.topology.messages import problem
 from birdmb.topology.names import Label
@@ -59,8 +59,15 @@ class MeasuredBody(Part):
     model_config = ConfigDict(extra="ignore")
 
     parts: tuple[BodyPart, ...] = Field(
-        description="list of the body's parts, from the bill to the tail", min_length=1
+        description="list of the body's parts, from the bill to the tail"
     )
+
+    @field_validator("parts")
+    @classmethod
+    def _has_parts(cls, parts: tuple[BodyPart, ...]) -> tuple[BodyPart, ...]:
+        if not parts:
+            raise problem("empty; a body needs one part at least, as [[body.parts]]")
+        return parts
 
     @model_validator(mode="before")
     @classmethod
@@ -76,7 +83,7 @@ class MeasuredWing(Part):
 
     model_config = ConfigDict(extra="ignore")
 
-    shoulder: Point = Field(
+    shoulder: tuple[Coordinate, Distance, Coordinate] = Field(
         description="right shoulder from the reference point, [x, y, z] in m, x forward, z down"
     )
     half_thickness: Distance = Field(
@@ -164,6 +171,12 @@ class MeasuredSegment(Part):
         return self
 
 
+class MeasuredSegments(RootModel[dict[str, MeasuredSegment]]):
+    """The segments of a wing by name, from the shoulder outwards."""
+
+    model_config = ConfigDict(frozen=True)
+
+
 class Morphology(Part):
     """What is weighed and measured of a bird; other tables are as in a topology.
 
@@ -177,13 +190,11 @@ class Morphology(Part):
 
     body: MeasuredBody = Field(description="body in parts, a table")
     wing: MeasuredWing = Field(description="shoulder and thickness of the wing, a table")
-    segments: dict[str, MeasuredSegment] = Field(
-        description="segments of the wing in parts, tables", min_length=1
-    )
+    segments: MeasuredSegments = Field(description="segments of the wing in parts, tables")
 
     @model_validator(mode="after")
     def _ends_follow_each_other(self) -> Self:
-        for (inner, before), (name, segment) in pairwise(self.segments.items()):
+        for (inner, before), (name, segment) in pairwise(self.segments.root.items()):
             if segment.end is not None and before.end is None:
                 raise problem(
                     f"there is no distance to measure, as {inner} has a length and no end",
@@ -199,7 +210,7 @@ class Morphology(Part):
 
     @model_validator(mode="after")
     def _skin_has_an_area(self) -> Self:
-        if self.wing.skin_mass and not any(s.skin_chord for s in self.segments.values()):
+        if self.wing.skin_mass and not any(s.skin_chord for s in self.segments.root.values()):
             raise problem(
                 "no segment has a skin_chord that it could lie on; give one or more",
                 "wing.skin_mass",
@@ -210,7 +221,7 @@ class Morphology(Part):
     def lengths(self) -> dict[str, float]:
         """Lengths (m) of the segments, as given or between their ends."""
         found, start = {}, self.wing.shoulder
-        for name, segment in self.segments.items():
+        for name, segment in self.segments.root.items():
             end = segment.end or start
             found[name] = segment.length or math.dist(start, end)
             start = end

@@ -228,6 +228,8 @@ def test_gait_and_joints_may_be_those_of_another_bird(tmp_path, ibis):
         ("length = 0.0583\n", "end = [0, 1, 0]\n", r"segments\.forearm\.end: there is no dist"),
         ("length = 0.0465\n", "end = [-0.0093, 0.0167, -0.0041]\n", r"end: the segment has no"),
         ("position = 0.7,", "position = 7,", r"feathers\.tertials\.position: must be 1 or less"),
+        ('"ulna", mass', '"ulna", mas', r"bones\.ulna\.mas: unknown key; the nearest known: mass"),
+        ("shoulder = [-0.0093, 0", "shoulder = [0, -0", r"wing\.shoulder.*: must be 0 or more"),
         ("muscles = [{", "muscels = [{", r"segments\.humerus\.muscels: unknown key.*muscles"),
         ("skin_mass = 0.00788", "skin_mass = '7 g'", r"wing\.skin_mass: must be a number"),
     ],
@@ -242,6 +244,14 @@ def test_skin_needs_a_segment_to_lie_on(made):
     chords = [("skin_chord = 0.05\n", ""), ("skin_chord = 0.05\n", ""), ("skin_chord = 0.03\n", "")]
     with pytest.raises(TopologyError, match=r"wing\.skin_mass: no segment has a skin_chord"):
         made(*chords)
+
+
+def test_a_body_has_parts(tmp_path):
+    path = tmp_path / "bird.toml"
+    before, parts = PIGEON.split("[[body.parts]]", 1)
+    path.write_text(f"{before}[body]\nparts = []\n{parts[parts.index('[wing]') :]}")
+    with pytest.raises(TopologyError, match=r"body\.parts: empty; a body needs one part"):
+        bird_from_morphology(path)
 
 
 def test_a_segment_has_a_mass(tmp_path):
