@@ -11,6 +11,7 @@ from .models import (
     RigidModel,
     StepGust,
 )
+from .morphology import bird_from_morphology
 from .orbits import (
     Branch,
     ConvergenceError,
@@ -75,6 +76,7 @@ __all__ = [
     "Validity",
     "assess_validity",
     "bird_branch",
+    "bird_from_morphology",
     "bird_names",
     "continue_branch",
     "find_limit_cycle",

@@ -14,8 +14,11 @@ FOUNDATIONS = {
     *("_kernels", "_starting", "_typing", "errors", "files", "provenance", "quantities", "seal"),
     *("text", "threads"),
 }
-ROOMS = ("topology", "wing", "aerodynamics", "orbits", "models", "studies", "figures", "cli")
-BIRDS = {"topology", "wing", "aerodynamics", "models", "studies"}
+ROOMS = (
+    *("topology", "morphology", "wing", "aerodynamics", "orbits", "models", "studies"),
+    *("figures", "cli"),
+)
+BIRDS = {"topology", "morphology", "wing", "aerodynamics", "models", "studies"}
 
 
 @dataclass(frozen=True)
