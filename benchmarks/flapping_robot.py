@@ -25,7 +25,7 @@ MEASURED = (
     3.3, -1.6, -4.9, -9.0, -13.2, -17.3, -22.2, -26.9, -31.3, -35.7,
     -39.6, -43.7, -48.2, -53.2, -57.9, -62.1, -65.8, -68.3, -70.2, -72.9,
 )  # fmt: skip
-OTHERS = {"the paper": 29.1, "an unsteady vortex lattice": 27.2}  # mean absolute errors, mN
+OTHERS = {"the paper": 29.1, "a vortex lattice": 27.2}  # mean absolute errors, mN
 PHASES = np.arange(len(MEASURED)) / len(MEASURED)
 
 
@@ -54,13 +54,13 @@ def row(name: str, lift: np.ndarray, measured: np.ndarray) -> list[str]:
 def main() -> None:
     """Print mean, extremes, first harmonic and mean absolute error."""
     measured = np.array(MEASURED)
-    table = Table(title="Lift of both wings over a beat, mN")
-    columns = ("", "mean", "largest", "smallest", "1st harmonic", "peaks at t/T", "mean abs. error")
+    table = Table(title="Lift of both wings over a beat, mN; error: mean absolute")
+    columns = ("", "mean", "max", "min", "1st harm.", "peak, t/T", "error")
     for column in columns:
         table.add_column(column, justify="right" if column else "left")
     table.add_row(*row("measured", measured, measured))
     for elements in (16, 32, 64):
-        table.add_row(*row(f"{elements} elements a wing", computed_lift(elements), measured))
+        table.add_row(*row(f"here, {elements} elements", computed_lift(elements), measured))
     for name, error in OTHERS.items():
         table.add_row(name, *[""] * 5, f"{error:.1f}")
     Console().print(table)

@@ -12,6 +12,7 @@ from .models import (
     RigidModel,
     StepGust,
 )
+from .morphology import bird_from_morphology
 from .orbits import (
     Branch,
     ConvergenceError,
@@ -79,6 +80,7 @@ __all__ = [
     "Validity",
     "assess_validity",
     "bird_branch",
+    "bird_from_morphology",
     "bird_names",
     "continue_branch",
     "find_limit_cycle",

@@ -15,10 +15,12 @@ FOUNDATIONS = {
     *("text", "threads"),
 }
 ROOMS = (
-    *("topology", "wing", "aerodynamics", "kinematics", "orbits", "models", "studies", "figures"),
-    "cli",
+    *("topology", "morphology", "wing", "aerodynamics", "kinematics", "orbits", "models"),
+    *("studies", "figures", "cli"),
 )
-BIRDS = {"topology", "wing", "aerodynamics", "kinematics", "models", "studies"}
+BIRDS = {
+    *("topology", "morphology", "wing", "aerodynamics", "kinematics", "models", "studies"),
+}
 
 
 @dataclass(frozen=True)

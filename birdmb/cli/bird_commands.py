@@ -24,20 +24,34 @@ def birds(json: Json = False) -> None:
 
 @commands.command(
     epilog="Exit status: 0; 2 wrong name or option, or a file that is there or cannot be written."
-    "\n\nExample: birdmb new mine.toml --like ibis"
+    "\n\nExamples:\n\nbirdmb new mine.toml --like ibis\n\n"
+    "birdmb new pigeon.toml --from examples/pigeon_morphology.toml"
 )
 def new(
     file: Annotated[Path, typer.Argument(help="Topology file to make (TOML).")],
     like: Annotated[
         str | None,
-        typer.Option(metavar="BIRD", help="A bird of the package, or a topology file, to copy."),
+        typer.Option(
+            metavar="BIRD",
+            help="A bird of the package, or a topology file, to copy; with --from, whose gait and "
+            "joints to take.",
+        ),
+    ] = None,
+    morphology: Annotated[
+        Path | None,
+        typer.Option(
+            "--from",
+            metavar="FILE",
+            help="A morphology file (TOML), from whose weighed and measured parts masses, centres "
+            "of mass and inertias follow.",
+        ),
     ] = None,
 ) -> None:
-    """Make a topology file of one's own from another one, with its comments."""
+    """Make a topology file of one's own, from another one with its comments or from morphology."""
     with reported():
         from birdmb.cli.new import run  # noqa: PLC0415
 
-        run(file, like)
+        run(file, like, morphology)
 
 
 @commands.command(

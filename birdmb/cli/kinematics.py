@@ -72,9 +72,10 @@ def _print(console: Console, fit: KinematicsFit) -> None:
     console.print()
     console.print(_markers(fit))
     console.print()
-    held = f" ± {fit.frequency_error:.1g}" if fit.frequency_error else ", as given"
+    frequency = _with_error(fit.frequency, fit.frequency_error)
+    given = "" if fit.frequency_error else ", as given"
     console.print(
-        f"{fit.beats} whole beats in {fit.frames} frames at {fit.frequency:.6g} Hz{held}; t = 0 of "
+        f"{fit.beats} whole beats in {fit.frames} frames at {frequency} Hz{given}; t = 0 of "
         f"the gait is {fit.start:.6g} s of the table, from the phase of {fit.reference}",
         highlight=False,
     )
@@ -110,9 +111,15 @@ def _joints(fit: KinematicsFit) -> Table:
 
 
 def _sure(value: float, error: float) -> str:
-    """An angle and its error in degrees, to the first digit of the error."""
-    value, error = math.degrees(value), math.degrees(error)
-    places = 2 if error == 0.0 else min(_FINEST, max(0, -math.floor(math.log10(error))))
+    """An angle and its error in degrees."""
+    return _with_error(math.degrees(value), math.degrees(error))
+
+
+def _with_error(value: float, error: float) -> str:
+    """A number to the first digit of its error, with that."""
+    if error == 0.0:
+        return f"{value:.6g}"
+    places = min(_FINEST, max(0, -math.floor(math.log10(error))))
     return f"{value:.{places}f} ± {error:.{places}f}"
 
 
@@ -122,7 +129,7 @@ def _scatter(motion: JointMotion) -> str:
 
 def _markers(fit: KinematicsFit) -> Table:
     table = table_of(
-        "Measured from fitted, standard deviation along an axis",
+        "Residuals, standard deviation",
         "marker", "residual", "unit", "frames", "missing",
         numbers=(1, 3, 4),
     )  # fmt: skip

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
-from matplotlib.lines import Line2D
 
 from birdmb.figures.style import DRIVER, LINE
 from birdmb.kinematics import KinematicsFit
@@ -62,11 +62,11 @@ def _panels(figure: SubFigure, rows: int, count: int) -> list[Axes]:
 
 
 def _legend(figure: SubFigure) -> None:
-    """One for all panels, of which the first shows all that there is."""
-    lines: dict[str, Line2D] = {}
+    """One for all panels."""
+    named: dict[str, Artist] = {}
     for axes in figure.axes:
-        lines |= {str(line.get_label()): line for line in axes.get_lines()}
-    named = {label: line for label, line in lines.items() if not label.startswith("_")}
+        handles, labels = axes.get_legend_handles_labels()
+        named |= {str(label): handle for label, handle in zip(labels, handles, strict=True)}
     figure.legend(
         [*named.values()], [*named], loc="outside upper right", ncols=3, frameon=False,
         fontsize="small",
@@ -76,7 +76,7 @@ def _legend(figure: SubFigure) -> None:
 def _draw_joint(axes: Axes, fit: KinematicsFit, name: str) -> None:
     phases = np.linspace(0.0, 1.0, _INSTANTS)
     own = np.degrees(fit.like.joint(name).driver.at(phases))
-    axes.plot(phases, own, "--", color=DRIVER, lw=1.0, label="before")
+    axes.plot(phases, own, "--", color=DRIVER, lw=1.0, label="topology")
     if name in fit.markers:
         measured = np.degrees(fit.measured[:, fit.column(name)])
         axes.plot(np.mod(fit.phases, 1.0), measured, color=LINE, **_SAMPLE)
@@ -84,10 +84,11 @@ def _draw_joint(axes: Axes, fit: KinematicsFit, name: str) -> None:
         motion = fit.joints[name]
         angles = np.degrees(motion.at(phases))
         scatter = np.degrees(np.nan_to_num(motion.scatter))
-        axes.fill_between(phases, angles - scatter, angles + scatter, color=LINE, alpha=0.3, lw=0)
+        low, high = angles - scatter, angles + scatter
+        axes.fill_between(phases, low, high, color=LINE, alpha=0.3, lw=0, label="scatter of beats")
         axes.plot(phases, angles, color=LINE, lw=1.5, label="fitted")
     else:
-        axes.text(0.5, 0.9, "not told by the data", transform=axes.transAxes, ha="center")
+        axes.set_title("not told by the data", fontsize="small", loc="right", pad=2)
     axes.set_ylabel(f"{in_figure(name).replace('.', chr(10))} (°)")
 
 

@@ -20,8 +20,9 @@ def lifting_line_lost(bird: Bird, t: float, angles: FloatArray) -> StateError:
     """Say at which joint angles the lifting line could not be found."""
     return StateError(
         f"{bird.name}: no line orthogonal to its chords fits the wing at t = {t:.4f} s "
-        f"({_listed(bird, angles)}); the wing is folded too far, feathers point forwards or are "
-        f"out of all proportion, or wing.discretisation has too many elements for its rounding."
+        f"({_listed(bird, angles)}); the wing is folded too far, feathers point forwards, they or "
+        f"sections are out of all proportion, or wing.discretisation has too many elements for its "
+        f"rounding."
     )
 
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise
 from os import PathLike
 from pathlib import Path
-from typing import Any, Self, TypeVar
+from typing import Any, Self
 
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
@@ -30,10 +30,15 @@ from birdmb.topology.parts import (
 )
 from birdmb.topology.sections import Section
 from birdmb.topology.segments import Segments
+from birdmb.topology.spanning import (
+    first_repeated,
+    from_shoulder_to_tip,
+    no_segment,
+    require_segment,
+    segment_names,
+)
 from birdmb.topology.values import is_resolution, named_places, place_of, put_values, value_at
 from birdmb.topology.writing import write_bird
-
-ChordT = TypeVar("ChordT", Feather, Section)
 
 
 class Bird(Part):
@@ -75,17 +80,17 @@ class Bird(Part):
     @field_validator("joints")
     @classmethod
     def _chain(cls, joints: tuple[Joint, ...], info: ValidationInfo) -> tuple[Joint, ...]:
-        if twice := _first_repeated(joint.name for joint in joints):
+        if twice := first_repeated(joint.name for joint in joints):
             raise problem(f"two joints are called {shown(twice)}; each needs a name of its own")
         for joint in joints:
             if (place := joint.name.partition(".")[0]) in cls.model_fields:
                 raise problem(
                     f"{shown(joint.name)} must not start with {place}, a table of the file"
                 )
-        if (known := _segment_names(info)) is None:
+        if (known := segment_names(info)) is None:
             return joints
         for i, joint in enumerate(joints):
-            _require_segment(joint.segment, known, i, "segment")
+            require_segment(joint.segment, known, i, "segment")
         for inner, outer in pairwise(joints):
             if known.index(outer.segment) < known.index(inner.segment):
                 raise problem(
@@ -100,14 +105,14 @@ class Bird(Part):
     def _feathers_to_the_tip(
         cls, feathers: tuple[Feather, ...], info: ValidationInfo
     ) -> tuple[Feather, ...]:
-        return _from_shoulder_to_tip(feathers, "feather", _segment_names(info))
+        return from_shoulder_to_tip(feathers, "feather", segment_names(info))
 
     @field_validator("sections")
     @classmethod
     def _sections_to_the_tip(
         cls, sections: tuple[Section, ...], info: ValidationInfo
     ) -> tuple[Section, ...]:
-        ordered = _from_shoulder_to_tip(sections, "section", _segment_names(info))
+        ordered = from_shoulder_to_tip(sections, "section", segment_names(info))
         for section in ordered[:-1]:
             if section.chord == 0:
                 text = "must be more than 0; only the section at the wing's tip may be a point"
@@ -119,11 +124,11 @@ class Bird(Part):
     def _on_what_there_is(
         cls, attachments: tuple[Attachment, ...], info: ValidationInfo
     ) -> tuple[Attachment, ...]:
-        if twice := _first_repeated(one.name for one in attachments):
+        if twice := first_repeated(one.name for one in attachments):
             raise problem(f"two are called {shown(twice)}; each needs a name of its own")
-        if (known := _segment_names(info)) is not None:
+        if (known := segment_names(info)) is not None:
             for i, one in enumerate(attachments):
-                _require_segment(one.on, (BODY, *known), i, "on")
+                require_segment(one.on, (BODY, *known), i, "on")
         return attachments
 
     @model_validator(mode="after")
@@ -136,7 +141,7 @@ class Bird(Part):
             )
         skin = self.wing.propatagium
         if skin is not None and skin not in self.segments:
-            raise problem(_no_segment(skin, self.segments.names), "wing", "propatagium")
+            raise problem(no_segment(skin, self.segments.names), "wing", "propatagium")
         return self
 
     @model_validator(mode="after")
@@ -340,56 +345,3 @@ class Bird(Part):
         if resolved:
             document["wing"]["discretisation"] = self.wing.resolved_discretisation.model_dump()
         return document
-
-
-def _segment_names(info: ValidationInfo) -> tuple[str, ...] | None:
-    """Names of the segments, or `None` where something is wrong with these."""
-    segments: Segments | None = info.data.get("segments")
-    return None if segments is None else segments.names
-
-
-def _no_segment(name: str, known: Sequence[str]) -> str:
-    return f"no segment is called {shown(name)}; the nearest: {nearest(name, known)}"
-
-
-def _require_segment(name: str, known: Sequence[str], item: int, key: str) -> None:
-    if name not in known:
-        raise problem(_no_segment(name, known), item, key)
-
-
-def _from_shoulder_to_tip(
-    chords: tuple[ChordT, ...], kind: str, segments: tuple[str, ...] | None
-) -> tuple[ChordT, ...]:
-    """Feathers or sections in their order along the wing, which must reach from end to end."""
-    if twice := _first_repeated(one.name for one in chords):
-        raise problem(f"two {kind}s are called {shown(twice)}; each needs a name of its own")
-    if segments is None or not chords:
-        return chords
-    for i, one in enumerate(chords):
-        _require_segment(one.bone, segments, i, "bone")
-
-    def place(one: ChordT) -> float:
-        return segments.index(one.bone) + one.position
-
-    ordered = tuple(sorted(chords, key=place))
-    for inner, outer in pairwise(ordered):
-        if place(inner) == place(outer):
-            raise problem(
-                f"{shown(inner.name)} and {shown(outer.name)} have the same place; "
-                f"each {kind} needs a place of its own"
-            )
-    if place(ordered[0]) != 0:
-        raise problem(f"none is at the shoulder; one must be (bone {segments[0]}, position 0)")
-    if place(ordered[-1]) != len(segments):
-        last = segments[-1]
-        raise problem(f"none is at the {last}'s tip; one must be (bone {last}, position 1)")
-    return ordered
-
-
-def _first_repeated(names: Iterable[str]) -> str | None:
-    seen: set[str] = set()
-    for name in names:
-        if name in seen:
-            return name
-        seen.add(name)
-    return None

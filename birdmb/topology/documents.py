@@ -8,15 +8,16 @@ from pathlib import Path
 from typing import Any
 
 from birdmb.errors import TopologyError
+from birdmb.topology.driver_files import with_driver_files
 
 _LARGEST = 1_000_000  # bytes
 
 
 def read_document(path: str | PathLike[str]) -> tuple[str, dict[str, Any]]:
-    """The text of a topology file and its values, not validated.
+    """The text of a topology file and its values, with the samples of files, not validated.
 
     Raises:
-        TopologyError: the file cannot be read, or is no TOML.
+        TopologyError: the file, or one of samples that it names, cannot be read.
     """
     origin = str(path)
     try:
@@ -25,7 +26,7 @@ def read_document(path: str | PathLike[str]) -> tuple[str, dict[str, Any]]:
         if len(content) > _LARGEST:
             raise TopologyError(f"{origin}: is larger than 1 MB; a topology file has a few kB")
         text = content.decode("utf-8-sig")
-        return text, tomllib.loads(text)
+        values = tomllib.loads(text)
     except OSError as error:
         reason = (error.strerror or "unknown reason").lower()
         raise TopologyError(
@@ -40,3 +41,4 @@ def read_document(path: str | PathLike[str]) -> tuple[str, dict[str, Any]]:
             f"{origin}: cannot be read as TOML; a number has thousands of digits, or brackets are "
             "nested too deep"
         ) from error
+    return text, with_driver_files(values, Path(path))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
+import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -44,6 +45,15 @@ def with_driver_files(document: dict[str, Any], topology: Path) -> dict[str, Any
         path = topology.parent / named
         wanted.table.update(_samples(f"{where}: {path}", _rows(where, path), wanted.columns))
     return document
+
+
+def move_driver_files(document: dict[str, Any], origin: Path, target: Path) -> None:
+    """Let a document name the same files from another topology file's folder."""
+    for wanted in _wanted(document, str(origin)):
+        named = wanted.table["file"]
+        if isinstance(named, str) and origin.resolve().parent != target.resolve().parent:
+            there = os.path.relpath(origin.resolve().parent / named, target.resolve().parent)
+            wanted.table["file"] = Path(there).as_posix()
 
 
 def _wanted(document: Mapping[str, Any], topology: str) -> Iterator[_Wanted]:

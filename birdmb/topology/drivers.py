@@ -11,7 +11,6 @@ from typing import Annotated, ClassVar, NamedTuple, Self
 
 import numpy as np
 from pydantic import Field, Strict, model_validator
-from scipy.special import jv
 
 from birdmb._typing import FloatArray
 from birdmb.topology.messages import problem
@@ -21,6 +20,7 @@ from birdmb.topology.samples import DriverFit, even_phases, most_harmonics, seri
 
 _FEWEST_SAMPLES, _MOST_SAMPLES = 3, 1000
 _ROUND_OFF = 1e-17
+_STILL = 1e-13  # rad
 _MOST_OF_A_STROKE = 30  # harmonics of uneven strokes; that of order 20 is below round-off
 _INSTANTS = 256
 _INSTANTS_PER_PERIOD = 32  # of the highest harmonic
@@ -85,8 +85,8 @@ class Driver:
 
     @property
     def is_still(self) -> bool:
-        """Whether the angle is its mean at all times."""
-        return not any(self.cosine) and not any(self.sine)
+        """Whether the angle is its mean at all times, but for round-off."""
+        return not (self.amplitudes > _STILL).any()
 
     @property
     def is_one_sine(self) -> bool:
@@ -156,6 +156,8 @@ def _uneven(amplitude: float, phase: float, downstroke: float) -> FloatArray:
     is -+ pi/2. Jacobi and Anger: sin(tau + b sin(tau)) is the sum of J_{m-1}(b) + (-1)^m J_{m+1}(b)
     times sin(m tau), which falls faster than any power of m.
     """
+    from scipy.special import jv  # noqa: PLC0415 - few birds need it, and all would wait for it
+
     b = math.pi * (0.5 - downstroke) / math.sin(math.pi * downstroke)
     orders = np.arange(1, _MOST_OF_A_STROKE + 1)
     sizes = jv(orders - 1, b) + (-1.0) ** orders * jv(orders + 1, b)

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any, ClassVar, Literal, Self
 
 from pydantic import (
+    ConfigDict,
     Field,
     SerializerFunctionWrapHandler,
     StrictBool,
@@ -14,6 +15,7 @@ from pydantic import (
     model_serializer,
     model_validator,
 )
+from pydantic.config import JsonDict
 
 from birdmb.topology.drivers import (
     Count,
@@ -52,6 +54,14 @@ def split_side(name: str) -> tuple[str, str]:
     return (owner, side) if side in SIDES and "." in owner else (name, "")
 
 
+def _tell_of_file(schema: JsonDict) -> None:
+    """Put into a JSON schema that a file may give the samples."""
+    properties = schema["properties"]
+    assert isinstance(properties, dict)
+    about = "CSV file of the samples, from the topology file's folder, in place of samples"
+    properties["file"] = {"type": "string", "description": about}
+
+
 def _without_file(data: Any) -> Any:
     if isinstance(data, Mapping) and "file" in data:
         raise problem(
@@ -66,6 +76,7 @@ class JointSide(Part):
     What is left out is as the joint itself says.
     """
 
+    model_config = ConfigDict(json_schema_extra=_tell_of_file)
     angles: ClassVar[tuple[str, ...]] = _ANGLES
 
     stiffness: Stiffness | None = Field(default=None, description="stiffness there, N m/rad")
@@ -131,6 +142,7 @@ class Joint(Part):
     Driver, spring and damper may be others on one side. The sense of rotation is mirrored.
     """
 
+    model_config = ConfigDict(json_schema_extra=_tell_of_file)
     angles: ClassVar[tuple[str, ...]] = _ANGLES
 
     name: Label = Field(description='name of the joint, "place.motion" such as "shoulder.flap"')
@@ -150,7 +162,9 @@ class Joint(Part):
         default=None,
         description="stiffness where the joint is below its driver, N m/rad, if another than above",
     )
-    offset: Angle = Field(default=0.0, description="mean angle; rad, degrees as offset_deg")
+    offset: Angle = Field(
+        default=0.0, description="mean angle, added to samples; rad, degrees as offset_deg"
+    )
     amplitude: Angle = Field(default=0.0, description="amplitude; rad, degrees as amplitude_deg")
     phase: Angle = Field(default=0.0, description="phase at t = 0; rad, degrees as phase_deg")
     gain: Gain = Field(default=1.0, description="factor on the driver's motion about its mean")

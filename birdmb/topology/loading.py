@@ -6,7 +6,6 @@ from os import PathLike
 
 from birdmb.topology.bird import Bird
 from birdmb.topology.documents import read_document
-from birdmb.topology.driver_files import with_driver_files
 from birdmb.topology.messages import validated
 from birdmb.topology.shipped import topology_file
 
@@ -18,6 +17,5 @@ def load_bird(bird: str | PathLike[str]) -> Bird:
     is no file of that name. Raises `TopologyError`, one sentence naming file, key, value and what
     would be right, if the file cannot be read or does not describe a possible bird.
     """
-    path = topology_file(bird)
-    _, document = read_document(path)
-    return validated(Bird, with_driver_files(document, path), str(bird))
+    _, document = read_document(topology_file(bird))
+    return validated(Bird, document, str(bird))

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import qr, solve_triangular
 
 from birdmb._typing import FloatArray
 
@@ -46,7 +45,7 @@ def most_harmonics(phases: Sequence[float]) -> int:
     """How many harmonics samples at these phases determine safely, whatever the angles.
 
     As many as have two samples or more in each period even in the widest gap: least squares with
-    weights are then well conditioned (Groechenig, Mathematics of Computation 59, 1992).
+    weights are then well conditioned (Gröchenig, Linear Algebra and its Applications 193, 1993).
     """
     widest = max(np.diff([*phases, phases[0] + 1.0]))
     return max(0, math.ceil(0.5 / widest - 1e-9) - 1)
@@ -64,16 +63,16 @@ def series_through(
     weight = _weights(np.array(phases))
     basis = _basis(np.array(phases), most)
     # Columns in the order of the harmonics: the first 2 K + 1 of them solve for K harmonics.
-    q, r = qr(basis * weight[:, None], mode="economic")
+    q, r = np.linalg.qr(basis * weight[:, None])
     part = q.T @ (values * weight)
     left = values * weight - np.cumsum(q * part, axis=1)[:, ::2].T
     residuals = np.abs(left / weight)  # (1 + most, N), by the number of harmonics
     if harmonics is None:
-        close = np.nonzero(residuals[1:].max(axis=1) <= _CLOSE_ENOUGH * np.ptp(values))[0]
+        close = np.nonzero(residuals[1:].max(axis=1) <= _CLOSE_ENOUGH * (np.ptp(values) or 1.0))[0]
         harmonics = 1 + int(close[0]) if close.size else most
     size = 2 * harmonics + 1
-    kept = solve_triangular(r[:size, :size], part[:size])
-    every = solve_triangular(r, part)
+    kept = np.linalg.solve(r[:size, :size], part[:size])
+    every = np.linalg.solve(r, part)
     fit = DriverFit(
         harmonics,
         float(np.sqrt(np.mean(residuals[harmonics] ** 2))),

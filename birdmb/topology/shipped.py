@@ -25,7 +25,7 @@ def topology_file(name: str | PathLike[str]) -> Path:
         TopologyError: the name is that of no bird and of no file.
     """
     path = Path(name)
-    if path.suffix or path.name != fspath(name) or path.exists():
+    if path.suffix or path.name != fspath(name) or path.is_file():
         return path
     known = bird_names()
     if path.name not in known:

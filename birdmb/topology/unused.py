@@ -42,7 +42,7 @@ def _of_joint(joint: Joint) -> Iterator[tuple[str, str]]:
     if reason := unused_spring(joint):
         yield from ((f"{name}.{key}", reason) for name in own_names(joint) for key in SPRING)
     for name in _places_where(joint, lambda own: not own.amplitude):
-        reason = f"{name} has no first harmonic, its amplitude is 0"
+        reason = f"{name} has no sine that it would shape, its amplitude is 0"
         yield from ((f"{name}.{key}", reason) for key in (*_PHASE, "downstroke_fraction"))
     for name in _places_where(joint, lambda own: not own.gain):
         yield from ((f"{name}.{key}", f"the gain of {name} is 0") for key in _SHAPE)

@@ -14,7 +14,7 @@ from birdmb.errors import TopologyError
 from birdmb.files import write_whole
 from birdmb.text import on_one_line
 from birdmb.topology.documents import read_document
-from birdmb.topology.driver_files import with_driver_files
+from birdmb.topology.driver_files import move_driver_files, with_driver_files
 from birdmb.topology.editing import edit
 from birdmb.topology.messages import validated
 from birdmb.topology.parts import Part
@@ -35,23 +35,29 @@ def bird_text(bird: Part, about: Sequence[str] = ()) -> str:
     return f"{_comments(about)}\n{_EMPTY_LINES.sub(_ONE_OF_THEM, tomlkit.dumps(document))}"
 
 
-def edited_text(bird: Part, like: str | PathLike[str], about: Sequence[str] = ()) -> str:
+def edited_text(
+    bird: Part,
+    like: str | PathLike[str],
+    about: Sequence[str] = (),
+    path: str | PathLike[str] | None = None,
+) -> str:
     """The text of the topology file `like` with the values of a bird where they differ.
 
     Comments, order, and values that are the same stay as they are typed; an angle stays in the unit
-    it is typed in. `about` as for `bird_text`.
+    it is typed in. `about` as for `bird_text`. Files of samples are named from the folder of
+    `path`, where the text is to be written, or of `like`.
 
     Raises:
         TopologyError: the file is none of a bird, or its text cannot be kept with these values.
     """
     text, values = read_document(like)
-    before = validated(type(bird), with_driver_files(values, Path(like)), str(like))
+    before = validated(type(bird), values, str(like))
     document = tomlkit.parse(text)
-    # The samples themselves are written: what a path leads to from the new file is not known.
-    with_driver_files(document, Path(like))
+    target = Path(like if path is None else path)
+    move_driver_files(document, Path(like), target)
     edit(document, table_of(before), table_of(bird))
     edited = tomlkit.dumps(document)
-    if not _is_read_as(bird, edited):
+    if not _is_read_as(bird, edited, target):
         raise TopologyError(
             f"{like}: the text of this file cannot be kept with these values; write them into a "
             "new file, without it"
@@ -74,7 +80,7 @@ def write_bird(
         OutputError: the file cannot be written.
         TopologyError: as `edited_text`.
     """
-    text = bird_text(bird, about) if like is None else edited_text(bird, like, about)
+    text = bird_text(bird, about) if like is None else edited_text(bird, like, about, path)
     return write_whole(path, text.encode())
 
 
@@ -82,9 +88,10 @@ def _comments(about: Sequence[str]) -> str:
     return "".join(f"# {on_one_line(line)}".rstrip() + "\n" for line in about)
 
 
-def _is_read_as(bird: Part, text: str) -> bool:
+def _is_read_as(bird: Part, text: str, path: Path) -> bool:
     try:
-        read = validated(type(bird), tomllib.loads(text), "the edited text")
+        values = with_driver_files(tomllib.loads(text), path)
+        read = validated(type(bird), values, "the edited text")
     except (tomllib.TOMLDecodeError, TopologyError):
         return False
     return _in_order(read.model_dump()) == _in_order(bird.model_dump())

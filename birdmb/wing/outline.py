@@ -115,8 +115,8 @@ def _extent_told() -> Iterator[None]:
         yield
     except ZeroDivisionError:
         raise StateError(
-            "two neighbouring points of the wing's edge coincide; give the feathers other lengths, "
-            "positions or rest angles, and the bones a length that counts beside theirs."
+            "two neighbouring points of the wing's edge coincide; give the feathers or sections "
+            "other lengths, positions or angles, and the bones a length that counts beside theirs."
         ) from None
 
 

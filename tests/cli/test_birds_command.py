@@ -41,6 +41,11 @@ def test_a_file_of_that_name_goes_before_the_bird(tmp_path):
     assert birdmb.load_bird("ibis").name == "mine"
 
 
+def test_a_directory_of_that_name_does_not(tmp_path):
+    (tmp_path / "ibis").mkdir()
+    assert birdmb.load_bird("ibis").name == "ibis"
+
+
 def test_commands_take_names(run):
     assert "ibis_tail" in run("check", "ibis_tail").stdout
 
@@ -81,4 +86,4 @@ def test_new_overwrites_nothing(run, tmp_path):
 def test_new_asks_what_from(run):
     done = run("new", "mine.toml")
     assert done.exit_code == 2
-    assert "--like one of gull_glider, ibis, " in " ".join(done.stderr.split())
+    assert "--like one of flapping_robot, gull_glider, " in " ".join(done.stderr.split())

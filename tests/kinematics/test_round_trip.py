@@ -27,6 +27,7 @@ def z_scores(fit: birdmb.KinematicsFit, flown: Bird) -> dict[str, float]:
     return found
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("which", ["flown_ibis", "flown_pigeon"])
 def test_a_gait_comes_back_within_the_errors_that_it_states(request, which, ibis, pigeon):
     """1 mm, 240 frames a second: the scatter of the results is the one that is stated."""

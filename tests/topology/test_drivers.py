@@ -139,6 +139,13 @@ def test_as_many_harmonics_as_the_samples_need():
     assert fit.truncation == pytest.approx(0.0005, rel=0.1)
 
 
+def test_samples_of_one_angle_stand_still():
+    still = driver(samples=[0.7] * 9)
+    assert still.is_still
+    assert still.mean == pytest.approx(0.7, abs=1e-15)
+    assert still.fit.harmonics == 1
+
+
 def triangle(phases):
     return 1 - 4 * np.abs(np.mod(phases, 1.0) - 0.5)
 

@@ -191,3 +191,14 @@ def test_parts_of_any_kind_are_told():
         "`harmonics` of `[bars.NAME]`. A harmonic of a motion.",
     ):
         assert line in page.splitlines()
+
+
+def test_drivers_by_files_and_harmonics(validator):
+    for new in (
+        'file = "flap.csv"',
+        "samples_deg = [0, 40, 0, -40]",
+        "harmonics = [{ order = 2, amplitude_deg = 1.8, phase_deg = 90 }]",
+        'left = { file = "left.csv" }',
+    ):
+        document = tomllib.loads(IBIS.replace("amplitude_deg = 42", new, 1))
+        assert list(validator.iter_errors(document)) == [], new

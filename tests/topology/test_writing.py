@@ -203,3 +203,33 @@ def test_a_file_that_cannot_be_kept_is_said_and_left(ibis, tmp_path):
     with pytest.raises(TopologyError, match=r"wrong\.toml: name: must be a text"):
         ibis.save(tmp_path / "new.toml", like=wrong)
     assert [file.name for file in tmp_path.iterdir()] == ["wrong.toml"]
+
+
+def test_drivers_of_any_kind_are_kept(tmp_path):
+    (tmp_path / "flap.csv").write_text("angle_deg\n0\n40\n0\n-40.5\n")
+    like = tmp_path / "like.toml"
+    text = (TOPOLOGIES / "ibis.toml").read_text()
+    joints = text.split("[[joints]]")
+    joints[2] = joints[2].replace("amplitude_deg = 42", 'file = "flap.csv"  # measured')
+    joints[2] = joints[2].replace("phase_deg = 180\n", "")
+    joints[3] = joints[3].replace(
+        "phase_deg = 90", "phase_deg = 90\nharmonics = [{ order = 2, sine_deg = 3 }]  # second"
+    )
+    like.write_text("[[joints]]".join(joints))
+    bird = birdmb.load_bird(like)
+    assert edited_text(bird, like) == like.read_text()
+    other = bird.with_values(
+        {"shoulder.flap.gain": 1.5, "shoulder.sweep.harmonics.2.sine_deg": 4, "gravity": 9.8}
+    )
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    for place in (tmp_path / "new.toml", folder / "new.toml"):
+        assert birdmb.load_bird(other.save(place, like=like)) == other
+        assert birdmb.load_bird(other.save(place)) == other
+    text = other.save(folder / "new.toml", like=like).read_text()
+    assert 'file = "../flap.csv"  # measured' in text
+    assert "harmonics = [{ order = 2, sine_deg = 4.0 }]  # second" in text
+    sampled = bird.with_values({"shoulder.flap.samples_deg": [0, 30, 0, -30]})
+    assert birdmb.load_bird(sampled.save(like, like=like)) == sampled
+    assert "samples_deg = [0.0, 30.0, 0.0, -30.0]" in like.read_text()
+    assert "flap.csv" not in like.read_text()
