@@ -75,12 +75,13 @@ def fit_kinematics(
         raise ArgumentError(f"{given.name}: has joints of its own on a side; one wing is fitted.")
     places = read_places(markers)
     recording = read_recording(data, given.joint_names, rate, unit)
-    if lengths:
-        found = measured_lengths(recording, given.assembled, places)
-        sizes = {f"segments.{name}.length": size for name, size in found.items()}
-        given = given.with_values(sizes)
     with one_thread():
         seen, remarks = observe(recording, given.assembled, places, frame)
+        if lengths:
+            found = measured_lengths(recording, given.assembled, places)
+            sizes = {f"segments.{name}.length": size for name, size in found.items()}
+            given = given.with_values(sizes)
+            seen, remarks = observe(recording, given.assembled, places, frame)
         hold = frequency is not None
         if frequency is None:
             frequency = beat_frequency(seen.times, seen.values / seen.typical, seen.origin)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -44,7 +43,8 @@ def observe(
         remarks += more
     names = (*markers.names, *recording.angles)
     joints = np.array([bird.joint_names.index(name) for name in recording.angles], dtype=np.int64)
-    columns = [points.reshape(len(recording.times), -1), *(a[:, None] for a in _angles(recording))]
+    angles = [each[:, None] for each in recording.angles.values()]
+    columns = [points.reshape(len(recording.times), -1), *angles]
     values = np.concatenate(columns, axis=1)
     seen = Observations(
         origin, recording.times, values, wing, markers, joints, tuple(names), bodily
@@ -55,10 +55,13 @@ def observe(
 def measured_lengths(recording: Recording, bird: Bird, places: Places) -> dict[str, float]:
     """Lengths (m) of the segments that have markers at both ends, the medians over the frames."""
     markers = place_markers(recording.points, bird, places, recording.origin)
-    points, found = _stacked(recording), {}
+    return _lengths(_stacked(recording), markers, bird)
+
+
+def _lengths(points: FloatArray, markers: Markers, bird: Bird) -> dict[str, float]:
+    found = {}
     for bone, name in enumerate(bird.segments.names):
-        root = _marker_at(markers, bone, 0.0)
-        end = _marker_at(markers, bone, 1.0)
+        root, end = _marker_at(markers, bone, 0.0), _marker_at(markers, bone, 1.0)
         if root is not None and end is not None:
             apart = np.linalg.norm(points[:, end] - points[:, root], axis=1)
             if np.isfinite(apart).any():
@@ -67,7 +70,8 @@ def measured_lengths(recording: Recording, bird: Bird, places: Places) -> dict[s
 
 
 def _marker_at(markers: Markers, bone: int, position: float) -> int | None:
-    places = {(bone, position), (bone - 1, 1.0) if position == 0.0 else (bone, position)}
+    """A marker at a bone's end, or at its root (0), which is the end of the bone before."""
+    places = [(bone, position), *([(bone - 1, 1.0)] if position == 0.0 else [])]
     for i, (on, at) in enumerate(zip(markers.bone, markers.position, strict=True)):
         if on >= 0 and (int(on), float(at)) in places:
             return i
@@ -79,10 +83,6 @@ def _stacked(recording: Recording) -> FloatArray:
     if not points:
         return np.empty((len(recording.times), 0, 3))
     return np.stack(points, axis=1)
-
-
-def _angles(recording: Recording) -> list[FloatArray]:
-    return [*recording.angles.values()]
 
 
 def _refuse_other_unit(origin: str, points: FloatArray, markers: Markers, wing: WingArrays) -> None:
@@ -118,12 +118,8 @@ def _spread(points: FloatArray) -> float:
 
 
 def _other_lengths(points: FloatArray, markers: Markers, bird: Bird) -> list[str]:
-    recording = Recording(
-        "", np.zeros(len(points)), dict(zip(markers.names, points.swapaxes(0, 1), strict=True)), {}
-    )
-    places = {n: _place(markers, i, bird) for i, n in enumerate(markers.names)}
     remarks = []
-    for name, length in measured_lengths(recording, bird, places).items():
+    for name, length in _lengths(points, markers, bird).items():
         own = bird.segments[name].length
         if abs(length / own - 1.0) > _OTHER_LENGTH:
             remarks.append(
@@ -131,15 +127,6 @@ def _other_lengths(points: FloatArray, markers: Markers, bird: Bird) -> list[str
                 f"{1e3 * own:.3g} mm; --lengths takes the measured lengths"
             )
     return remarks
-
-
-def _place(markers: Markers, i: int, bird: Bird) -> Mapping[str, object]:
-    if markers.bone[i] >= 0:
-        name = bird.segments.names[markers.bone[i]]
-        return {"segment": name, "position": markers.position[i]}
-    if markers.feather[i] >= 0:
-        return {"feather": bird.feathers[markers.feather[i]].name}
-    return {"body": [0.0, 0.0, 0.0]}
 
 
 def _in_body_axes(

@@ -79,3 +79,29 @@ def test_the_figure_shows_what_was_measured_and_fitted(flown_pigeon, pigeon):
     assert dots == pytest.approx(1e3 * fit.measured[:, fit.column("wrist")])
     off = fit.measured - fit.fitted
     assert np.sqrt(np.mean(off**2)) == pytest.approx(1e-3, rel=0.15)
+
+
+@pytest.mark.parametrize(
+    "driver",
+    [
+        "amplitude_deg = 50\nphase_deg = 180\ndownstroke_fraction = 0.6",
+        "samples_deg = [0, -40, 10, 45, 20]\ngain = 0.9",
+        'file = "flap.csv"',
+        "amplitude_deg = 50\nphase_deg = 180\nharmonics = [{ order = 2, sine_deg = 3 }]",
+    ],
+)
+def test_whatever_the_driver_was_given_by_goes(pigeon_file, flown_pigeon, tmp_path, driver):
+    """The joint that is told gets its harmonics in place of samples, strokes and files."""
+    (tmp_path / "flap.csv").write_text("phase,angle_deg\n0,0\n0.25,-40\n0.5,5\n0.75,45\n")
+    text = pigeon_file.read_text().replace("amplitude_deg = 50\nphase_deg = 180", driver, 1)
+    like = tmp_path / "like.toml"
+    like.write_text(text)
+    fit = birdmb.fit_kinematics(points_of(flown_pigeon), like, frame="body")
+    flap = birdmb.load_bird(fit.write(tmp_path / "mine.toml")).joint("shoulder.flap")
+    assert (flap.samples, flap.downstroke_fraction, flap.gain, flap.harmonics) == (
+        None,
+        None,
+        1,
+        (),
+    )
+    assert np.degrees(flap.amplitude) == pytest.approx(44.0, abs=0.3)

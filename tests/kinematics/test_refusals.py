@@ -40,8 +40,11 @@ def test_up_for_down_is_a_mirrored_wing_and_a_remark(points, pigeon):
 
 
 def test_millimetres_for_metres(points, pigeon):
-    with pytest.raises(birdmb.KinematicsError, match=r"if they are in mm, say so \(--unit mm\)"):
-        birdmb.fit_kinematics(scaled(points, 1e3), pigeon, frame="body")
+    for lengths in (False, True):
+        with pytest.raises(
+            birdmb.KinematicsError, match=r"if they are in mm, say so \(--unit mm\)"
+        ):
+            birdmb.fit_kinematics(scaled(points, 1e3), pigeon, frame="body", lengths=lengths)
     told = birdmb.fit_kinematics(scaled(points, 1e3), pigeon, frame="body", unit="mm")
     assert told.bird == birdmb.fit_kinematics(points, pigeon, frame="body").bird
 
