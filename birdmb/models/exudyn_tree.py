@@ -168,7 +168,7 @@ def tree_links(bird: Bird, body_coordinates: IntArray, *, is_mirrored: bool) -> 
     if is_mirrored:
         wings = wings[: len(wings) // 2]
     to_body = _axis_frame(_TURNS[body_coordinates[-1] - len(_SLIDES)])
-    parents = np.array([link.parent for link in wings]) - first
+    parents = np.array([link.parent for link in wings], dtype=np.int64) - first
     carried = parents < 0
     offsets = [
         to_body @ k.offset if own else k.offset for k, own in zip(wings, carried, strict=True)
@@ -179,11 +179,11 @@ def tree_links(bird: Bird, body_coordinates: IntArray, *, is_mirrored: bool) -> 
     ]
     return TreeLinks(
         parent=np.where(carried, -1, parents),
-        offset=np.array(offsets),
-        axes=np.array(axes),
-        mass=np.array([link.mass for link in wings]),
-        centre=np.array([link.centre for link in wings]),
-        inertia=np.array([link.inertia for link in wings]),
+        offset=np.array(offsets).reshape(-1, 3),
+        axes=np.array(axes).reshape(-1, 3, 3),
+        mass=np.array([link.mass for link in wings], dtype=float),
+        centre=np.array([link.centre for link in wings]).reshape(-1, 3),
+        inertia=np.array([link.inertia for link in wings]).reshape(-1, 3, 3),
         copies=2.0 if is_mirrored else 1.0,
         body_mass=body.mass,
         body_inertia=to_body @ body.inertia @ to_body.T,

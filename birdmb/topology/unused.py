@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 
 from birdmb.topology.bird import Bird
 from birdmb.topology.joints import SIDES, Joint
+from birdmb.topology.parts import Profile
 
 SPRING = ("stiffness", "damping", "cubic_stiffness", "stiffness_below")
 _PHASE = ("phase", "phase_deg")
@@ -22,6 +23,13 @@ def unused_values(bird: Bird) -> dict[str, str]:
         unused |= {"drag.frontal_area": off, "drag.body_coefficient": off}
     if bird.body.side_area is None:
         unused["body.side_coefficient"] = "the body has no side_area"
+    if bird.sections:
+        spanned = "sections span the wing, not feathers"
+        unused |= {"wing.half_thickness": spanned, "wing.propatagium": spanned}
+    if bird.sections and all(section.profile for section in bird.sections):
+        own = "every section has a profile of its own"
+        unused |= {f"wing.profile.{key}": own for key in Profile.model_fields}
+        unused["wing.profile.zero_lift_angle_deg"] = own
     skin_friction = bird.drag.body and bird.drag.body_coefficient is None
     if bird.tail is None and not skin_friction:
         unused["air.kinematic_viscosity"] = "nothing has friction (a tail or drag.body would)"

@@ -6,6 +6,7 @@ import pytest
 import birdmb
 from birdmb.aerodynamics.elements import place_elements
 from birdmb.topology.messages import validated
+from birdmb.topology.unused import unused_values
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.edges import wing_edges
 from birdmb.wing.outline import span_and_area
@@ -191,3 +192,27 @@ def test_what_no_wing_can_be_is_one_sentence(change, sentence):
     with pytest.raises(birdmb.TopologyError) as caught:
         validated(birdmb.Bird, document, "plate.toml")
     assert str(caught.value).startswith(f"plate.toml: {sentence}")
+
+
+@pytest.mark.parametrize("motion", ["planar", "free"])
+def test_a_wing_without_joints_is_fixed_to_the_body(motion):
+    """As one whose only joint never moves, in both models."""
+    still = plate(joints=[{"name": "a.flap", "segment": "bar", "axis": [-1, 0, 0]}])
+    inertia = {"body.inertia_xx": 2e-4, "body.inertia_zz": 1.1e-3}
+    birds = [bird.with_values(inertia) for bird in (still, plate(joints=[]))]
+    for model in (birdmb.RigidModel, birdmb.MultibodyModel):
+        models = [model(bird, motion=motion) for bird in birds]
+        x = 0.05 * np.arange(1.0, 1.0 + len(models[0].state_names))
+        x[0] = 9.0
+        rates = [one.rhs(0.03, x) for one in models]
+        np.testing.assert_allclose(rates[1], rates[0], rtol=1e-11, atol=1e-11)
+        ends = [one.flow(x, 0.0, 0.02) for one in models]
+        np.testing.assert_allclose(ends[1], ends[0], rtol=1e-9, atol=1e-9)
+
+
+def test_values_that_sections_leave_unused_are_told():
+    unused = unused_values(plate())
+    assert unused["wing.half_thickness"] == "sections span the wing, not feathers"
+    assert "wing.profile.lift_slope" not in unused
+    own = [section("bar", place, 0.1, profile={"lift_slope": 6.0}) for place in (0.0, 1.0)]
+    assert "wing.profile.lift_slope" in unused_values(plate(sections=own))
