@@ -3,8 +3,8 @@
 python examples/pigeon_points.py [FILE]
 
 Four beats at 240 frames a second, the bird flying past at 12 m/s, 1 mm of noise on every
-coordinate, and a gap where the wrist was hidden. Axes: x forwards, y to the left, z up. A stand-in for a
-measurement: `birdmb kinematics` gives back the gait that is put in here.
+coordinate, and a gap where the wrist was hidden. Axes: x forwards, y to the left, z up. A stand-in
+for a measurement: `birdmb kinematics` gives back the gait that is put in here.
 """
 
 import csv
