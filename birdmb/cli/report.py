@@ -167,6 +167,8 @@ def _joints(cycle: FlightCycle) -> Table:
         numbers=(1, 2, 3, 4),
     )  # fmt: skip
     rows = {name: (joints[name], work[name].net(), *work[name]) for name in joints}
-    for name, row in (*rows.items(), ("all", np.sum(list(rows.values()), axis=0))):
+    # Where there are no joints, numpy's sum of no rows is no row.
+    whole = np.reshape(list(rows.values()), (-1, 4)).sum(axis=0)
+    for name, row in (*rows.items(), ("all", whole)):
         table.add_row(name, *(f"{power:.3f}" for power in row))
     return table

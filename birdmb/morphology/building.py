@@ -51,7 +51,7 @@ def bird_from_morphology(path: str | PathLike[str], like: Bird | None = None) ->
             sentence.
     """
     origin = str(path)
-    _, document = read_document(path)
+    _, document = read_document(path, "morphology")
     measured = validated(Morphology, document, origin)
     if like is not None:
         flapping = like.model_dump(exclude_unset=True, include=set(_HOW_IT_FLAPS))

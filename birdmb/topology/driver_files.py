@@ -17,6 +17,7 @@ from birdmb.topology.messages import shown
 _LARGEST = 1_000_000  # bytes
 _CLOSED = 0.02  # of the range: within it, the end of a beat repeats its beginning
 _LARGEST_ANGLE = 1e3  # rad
+_TIMES = ("time", "time_s", "t", "t_s")
 
 
 class _Wanted(NamedTuple):
@@ -117,6 +118,13 @@ def _samples(
     largest = math.degrees(_LARGEST_ANGLE) if in_degrees else _LARGEST_ANGLE
     angles = _column(origin, rows, named[0], largest)
     found = {"samples_deg" if in_degrees else "samples": angles}
+    times = [column for column in header if column.lower() in _TIMES]
+    if times and "phase" not in header:
+        # Even samples over the beat are what would be taken instead, without a word.
+        raise TopologyError(
+            f"{origin}, line {line}: samples have no {times[0]} but a phase, the part of the beat "
+            "from 0 to 1; give that, or leave the column out if they are even"
+        )
     if "phase" in header:
         found["sample_phases"] = _phases(origin, rows, angles)
     return found

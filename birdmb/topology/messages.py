@@ -20,6 +20,9 @@ ModelT = TypeVar("ModelT", bound=BaseModel)
 # Marks the branches of a tagged union, which pydantic reports as if they were keys of the document.
 BRANCH = "branch:"
 
+# Follows a table's key where not the value but the key is wrong.
+_OF_KEY = "[key]"
+
 _EXPECTED = {
     "dict_type": "must be a table",
     "float_type": "must be a number",
@@ -37,6 +40,10 @@ _EXPECTED = {
     "less_than_equal": "must be {le:g} or less",
     OUT_OF_RANGE: "must be {wanted}",
 }
+
+
+# Descriptions that take no article before them.
+_CLAUSES = ("how ", "its ", "what ", "whether ")
 
 
 def problem(text: str, *keys: str | int) -> PydanticCustomError:
@@ -101,7 +108,8 @@ def _explanation(
         return f"unknown key; the nearest known: {nearest(str(location[-1]), _keys_of(owner))}"
     meaning = field.description if field else None
     if kind == "missing" and isinstance(detail["loc"][-1], str):
-        return f"missing; it should give the {meaning}"
+        article = "" if str(meaning).startswith(_CLAUSES) else "the "
+        return f"missing; it should give {article}{meaning}"
     if kind in _EXPECTED:
         expected = _EXPECTED[kind].format(**detail.get("ctx", {}))
     else:
@@ -117,6 +125,8 @@ def _location(detail: ErrorDetails, document: object) -> Location:
     parts = [p for p in detail["loc"] if not (isinstance(p, str) and p.startswith(BRANCH))]
     if detail["type"] == "missing" and isinstance(parts[-1], int):
         parts.pop()
+    if parts and parts[-1] == _OF_KEY:  # the sentence tells the key
+        parts = parts[:-2]
     parts += detail.get("ctx", {}).get("keys", ())
     for i, part in enumerate(parts):
         # An angle given in degrees is reported under the key that the user wrote.

@@ -125,3 +125,28 @@ def test_options_reach_model_and_search(run):
     assert found["iterations"] == len(cycle.iterations) - 1
     assert found["steps_per_beat"] == 60
     assert found["integrator"] == "explicit"
+
+
+FIXED_WING = """
+name = "fixed"
+joints = []
+gait = { frequency = 4.0 }
+wing = { root = { x = 0.02, y = 0.01 } }
+body = { mass = 0.02, inertia_yy = 3e-5 }
+tail = { apex = { x = -0.05 }, chord = 0.06, opening_deg = 60 }
+segments = { bar = { length = 0.2, mass = 0.001, inertia = [1e-6, 1e-8, 1e-6] } }
+drag = { profile_coefficient = 0.02 }
+sections = [
+  { name = "root", bone = "bar", position = 0, chord = 0.06 },
+  { name = "tip", bone = "bar", position = 1, chord = 0.04 },
+]
+"""
+
+
+def test_a_wing_without_joints_is_reported(run, tmp_path):
+    topology = tmp_path / "fixed.toml"
+    topology.write_text(FIXED_WING, encoding="utf-8")
+    done = run("cycle", str(topology), "--model", "rigid")
+    assert done.exit_code == 0, done.output
+    powers = done.stdout.partition("Joint power")[2].splitlines()
+    assert [line.split() for line in powers if line.startswith("all")] == [["all"] + 4 * ["0.000"]]

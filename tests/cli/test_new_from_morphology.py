@@ -32,3 +32,4 @@ def test_what_is_no_morphology_file_is_refused(tmp_path):
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1
     assert "none.toml: cannot be read" in done.stderr
+    assert "must be a morphology file" in done.stderr

@@ -93,6 +93,11 @@ WRONG = {
         "line 1: no column of angles; the header must have one of shoulder.flap_deg, "
         "shoulder.flap, angle_deg, angle",
     ),
+    "times": (
+        "Time_s,angle\n0,1\n0.1,2\n0.3,3\n",
+        None,
+        "line 1: samples have no Time_s but a phase, the part of the beat from 0 to 1",
+    ),
     "semicolons": ("phase;angle_deg\n0;1\n", None, "commas must separate the columns"),
     "both units": ("angle,angle_deg\n1,2\n", None, "line 1: has both angle_deg and angle"),
     "a column twice": ("angle,angle\n1,2\n", None, "line 1: two columns are called angle"),

@@ -213,7 +213,7 @@ REFUSED = {
     ),
     "a harmonic without an order": (
         {"harmonics": [{"sine": 1}]},
-        "harmonics #1.order: missing; it should give the how many periods a beat has",
+        "harmonics #1.order: missing; it should give how many periods a beat has",
     ),
     "half an order": (
         {"harmonics": [{"order": 1.5, "sine": 1}]},

@@ -46,6 +46,17 @@ MISTAKES = {
         "",
         "gait: missing; it should give the gait, a table",
     ),
+    "missing place": (
+        "root = { x = 0.05, y = 0.05, z = 0.0 }",
+        "root = { y = 0.05, z = 0.0 }",
+        "wing.root.x: missing; it should give how far the shoulder is ahead of the centre of mass, "
+        "m",
+    ),
+    "segment without a name": (
+        "[segments.hand]",
+        '[segments.""]',
+        'segments: "" is no name; it must have a letter or digit',
+    ),
     "missing name": (
         'name = "elbow.sweep"',
         "",
