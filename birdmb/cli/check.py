@@ -82,6 +82,7 @@ def _bird(bird: Bird) -> Table:
         ("mass of the whole bird", f"{bird.total_mass:.6g}", "kg"),
         ("mass of the body", f"{bird.body.mass:.6g}", "kg"),
         ("pitch inertia of the body", f"{bird.body.inertia_yy:.4g}", "kg m2"),
+        *_with_attachments(bird),
         ("span, joints at zero", f"{regime.span:.3f}", "m"),
         ("wing area, joints at zero", f"{regime.area:.4f}", "m2"),
         ("aspect ratio, joints at zero", f"{regime.aspect_ratio:.3g}", ""),
@@ -109,6 +110,19 @@ def _at_speed(regime: FlightRegime) -> list[tuple[str, str, str]]:
             ("Strouhal number at U", f"{regime.strouhal_number:.2g}", ""),
         ]
     return rows
+
+
+def _with_attachments(bird: Bird) -> list[tuple[str, str, str]]:
+    """What the body has with all that is attached to it, and where its centre of mass is then."""
+    if not bird.attachments:
+        return []
+    whole = bird.assembled
+    moved = bird.wing.root.x - whole.wing.root.x
+    return [
+        ("mass of the body, all attached", f"{whole.body.mass:.6g}", "kg"),
+        ("pitch inertia of the body, all attached", f"{whole.body.inertia_yy:.4g}", "kg m2"),
+        ("its centre of mass, ahead by", f"{moved:.4g}", "m"),
+    ]
 
 
 def _tail_and_drag(bird: Bird) -> list[tuple[str, str, str]]:

@@ -41,6 +41,7 @@ def bird_warnings(bird: Bird) -> list[str]:
         _on_hinges(bird),
         _on_wing(bird),
         _on_regime(bird),
+        _on_planform(bird),
     )
     # Both wings may give the same cause.
     return list(dict.fromkeys(itertools.chain.from_iterable(each)))
@@ -116,6 +117,14 @@ def _on_wing(bird: Bird) -> Iterator[str]:
             yield f"no flight with the wings as driven. {error}"
             return
         yield from _on_overlap(bird, model, phases)
+
+
+def _on_planform(bird: Bird) -> Iterator[str]:
+    """On values that a wing of sections has no use for."""
+    given = [key for key in ("half_thickness", "propatagium") if getattr(bird.wing, key)]
+    if bird.sections and given:
+        names = " and ".join(f"wing.{key}" for key in given)
+        yield f"{names}: not used, for sections span the wing. Leave it out."
 
 
 def _on_regime(bird: Bird) -> Iterator[str]:

@@ -23,11 +23,12 @@ def default_parameters(bird: Bird, count: int) -> dict[str, tuple[float, float]]
     """
     turning, flapping = incidence_joint(bird), flap_joint(bird)
     if turning is None:
-        raise _no_default(bird, "turns the chords about the span", "offset_deg=-30:30")
+        example = "wing.root.x=0:0.1" if bird.tail is None else "tail.incidence_deg=-15:5"
+        raise _no_default(bird, "turns the chords about the span", example)
     parameters = {f"{turning.name}.offset_deg": _INCIDENCE}
     if count > 1:
         if flapping is None or flapping.driver.is_still:
-            raise _no_default(bird, "flaps the wing", "amplitude_deg=15:70")
+            raise _no_default(bird, "flaps the wing", "gait.frequency=3:8")
         if flapping.driver.is_one_sine and flapping.amplitude:
             parameters[f"{flapping.name}.amplitude_deg"] = _AMPLITUDE
         else:
@@ -38,9 +39,8 @@ def default_parameters(bird: Bird, count: int) -> dict[str, tuple[float, float]]
 
 
 def _no_default(bird: Bird, purpose: str, example: str) -> ArgumentError:
-    joint = bird.joint_names[0] if bird.joint_names else "shoulder.flap"
     return ArgumentError(
         f"{bird.name}: it is not clear which one joint {purpose}; say what to trim by, with its "
-        f"bounds, as --by {joint}.{example} or "
-        f'parameters={{"{joint}.{example.partition("=")[0]}": (low, high)}}.'
+        f"bounds, as --by {example} or "
+        f'parameters={{"{example.partition("=")[0]}": (low, high)}}.'
     )

@@ -60,7 +60,9 @@ class Bird(Part):
         description="segments of a wing from the shoulder outwards, a table each, as "
         "[segments.humerus]"
     )
-    joints: tuple[Joint, ...] = Field(description="joints from the body outwards, in order")
+    joints: tuple[Joint, ...] = Field(
+        description="joints from the body outwards, in order; joints = [] if there are none"
+    )
     feathers: tuple[Feather, ...] = Field(
         default=(),
         description="feathers that span the wing, one at the shoulder and one at the last "

@@ -38,5 +38,7 @@ class Section(Part):
         "twist_deg",
     )
     profile: Profile | None = Field(
-        default=None, description="profile of the section, a table; by default that of the wing"
+        default=None,
+        description="profile of the section, a table of its own, in which what is left out is thin "
+        "and symmetric; without it that of the wing",
     )

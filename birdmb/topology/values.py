@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from birdmb.errors import TopologyError
+from birdmb.topology.attachments import Attachment
 from birdmb.topology.drivers import Harmonic
 from birdmb.topology.joints import SIDES, Joint, JointSide
 from birdmb.topology.messages import Location, nearest, shown
@@ -66,6 +67,9 @@ def _walk(part: Part, prefix: str, place: Location) -> Iterator[tuple[str, Locat
             if type(part).model_fields[key].default is None:  # may be taken off as a whole
                 yield name, here
             yield from _walk(child, f"{name}.", here)
+        elif isinstance(part, Attachment) and key == "position":
+            yield name, here
+            yield from ((f"{name}.{axis}", (*here, i)) for i, axis in enumerate("xyz"))
         # What names lead to, as a joint or a harmonic, is not renamed.
         elif key not in ("name", "order") or not place:
             yield name, here
@@ -118,7 +122,7 @@ def value_at(document: Mapping[str, Any], place: Location) -> Any:
     table: Any = document
     for part in parents:
         table = {**table, **table.get(part, {})} if part in SIDES else table[part]
-    if key in table:
+    if isinstance(key, int) or key in table:
         return table[key]
     other = _other_unit(key)
     if other in table:
@@ -158,8 +162,12 @@ def put_values(
         *parents, key = place_of(name, known, owner)
         table: Any = document
         for part in parents:
-            table = table[part] if isinstance(part, int) else table.setdefault(part, {})
-        table.pop(_other_unit(key), None)
+            inside = table[part] if isinstance(part, int) else table.setdefault(part, {})
+            if isinstance(key, int) and isinstance(inside, tuple):  # one number of a list
+                inside = table[part] = list(inside)
+            table = inside
+        if isinstance(key, str):
+            table.pop(_other_unit(key), None)
         changes.append((table, key, value))
     for table, key, value in changes:
         table[key] = value.tolist() if isinstance(value, np.ndarray | np.generic) else value

@@ -68,6 +68,14 @@ def test_drivers_that_are_no_sine(run):
     assert max(map(len, tables.splitlines())) <= 80
 
 
+def test_what_is_attached_counts(run):
+    """0.008 and 0.003 kg; 3/11 of the way of 25 mm to the battery."""
+    rows = [" ".join(line.split()) for line in run("check", "flapping_robot").stdout.splitlines()]
+    assert "mass of the body 0.008 kg" in rows
+    assert "mass of the body, all attached 0.011 kg" in rows
+    assert "its centre of mass, ahead by 0.006818 m" in rows
+
+
 def test_warnings_are_printed_and_no_error(run):
     result = run("check", IBIS, "--set", "gravity=0")
     assert result.exit_code == 0

@@ -132,3 +132,9 @@ def test_a_wing_of_sections_that_crosses_the_plane_is_told_by_its_section():
     gull = load_bird("gull_glider").with_values({"shoulder.sweep.offset_deg": -40.0})
     (warning,) = [text for text in bird_warnings(gull) if "across the plane" in text]
     assert warning.startswith("the trailing end of section root reaches ")
+
+
+def test_what_a_wing_of_sections_has_no_use_for_is_told():
+    gull = load_bird("gull_glider").with_values({"wing.half_thickness": 0.01})
+    told = "wing.half_thickness: not used, for sections span the wing. Leave it out."
+    assert told in bird_warnings(gull)

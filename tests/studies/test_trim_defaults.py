@@ -39,7 +39,7 @@ def test_one_twist_goes_before_a_pitch_and_two_are_not_clear():
     ("joints", "targets", "sentence"),
     [
         ([FLAP], 1, "plate: it is not clear which one joint turns the chords about the span; say "
-         "what to trim by, with its bounds, as --by a.up.offset_deg=-30:30 or "),
+         "what to trim by, with its bounds, as --by wing.root.x=0:0.1 or "),
         ([PITCH, SWEEP], 2, "plate: it is not clear which one joint flaps the wing; "),
         ([PITCH, FLAP | {"amplitude_deg": 0.0}], 2, "plate: it is not clear which one joint flaps"),
     ],

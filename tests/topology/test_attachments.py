@@ -91,6 +91,11 @@ def test_values_have_dotted_names(ibis):
     assert bird.value("attachments.payload.mass") == 0.1
     heavier = bird.with_values({"attachments.payload.mass": 0.2})
     assert heavier.total_mass == pytest.approx(ibis.total_mass + 0.2)
+    assert bird.value("attachments.payload.position.x") == 0.03
+    moved = {"attachments.payload.position.x": 0.05, "attachments.payload.position.z": -0.01}
+    assert bird.with_values(moved).attachments[0].position == (0.05, 0.0, -0.01)
+    with pytest.raises(birdmb.TopologyError, match=r"payload\.position.*must be a number"):
+        bird.with_values({"attachments.payload.position.x": "ahead"})
 
 
 @pytest.mark.parametrize(
