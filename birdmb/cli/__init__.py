@@ -13,7 +13,7 @@ def main() -> None:
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         # Until what ends the process otherwise is imported.
         signal.signal(signal.SIGINT, lambda *_: os._exit(130))
-    from birdmb.cli.interrupt import ending_the_process  # noqa: PLC0415
+    from birdmb.cli.interrupt import ending_the_process  # noqa: PLC0415 - slow to import
 
     with ending_the_process():
         from birdmb.cli.app import app  # noqa: PLC0415 - it imports typer

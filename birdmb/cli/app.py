@@ -57,7 +57,7 @@ app = typer.Typer(
 
 def _show_version(wanted: bool) -> None:
     if wanted:
-        from importlib.metadata import version  # noqa: PLC0415
+        from importlib.metadata import version  # noqa: PLC0415 - slow to import
 
         typer.echo(f"birdmb {version('birdmb')}")
         raise typer.Exit
@@ -137,13 +137,13 @@ def cycle(
     standard output.
     """
     with reported(as_json=json):
-        from birdmb.cli.birds import requested_bird  # noqa: PLC0415
+        from birdmb.cli.birds import requested_bird  # noqa: PLC0415 - slow to import
 
         bird = requested_bird(topology, assignments or [])
 
         from birdmb.cli.cycle import run  # noqa: PLC0415 - not before the bird is sound
-        from birdmb.cli.saved_guess import requested_guess  # noqa: PLC0415
-        from birdmb.cli.searching import Search  # noqa: PLC0415
+        from birdmb.cli.saved_guess import requested_guess  # noqa: PLC0415 - slow to import
+        from birdmb.cli.searching import Search  # noqa: PLC0415 - slow to import
 
         run(
             bird,
@@ -173,11 +173,11 @@ def check(topology: Topology, assignments: Assignments = None) -> None:
     Masses, span, joints with their drivers, springs and dampers, discretisation, and warnings.
     """
     with reported():
-        from birdmb.cli.birds import requested_bird  # noqa: PLC0415
+        from birdmb.cli.birds import requested_bird  # noqa: PLC0415 - slow to import
 
         bird = requested_bird(topology, assignments or [])
 
-        from birdmb.cli.check import run  # noqa: PLC0415
+        from birdmb.cli.check import run  # noqa: PLC0415 - slow to import
 
         run(bird)
 
@@ -268,11 +268,11 @@ def branch(
     between the flights are located.
     """
     with reported(as_json=json):
-        from birdmb.cli.birds import requested_bird  # noqa: PLC0415
+        from birdmb.cli.birds import requested_bird  # noqa: PLC0415 - slow to import
 
         bird = requested_bird(topology, assignments or [], {parameter: start})
 
-        from birdmb.cli.branch import Following, run  # noqa: PLC0415
+        from birdmb.cli.branch import Following, run  # noqa: PLC0415 - slow to import
 
         run(
             bird,
@@ -313,7 +313,7 @@ def schema(
     A topology file whose first line is `#:schema ./birdmb.schema.json` names its schema.
     """
     with reported():
-        from birdmb.cli.schema import run  # noqa: PLC0415
+        from birdmb.cli.schema import run  # noqa: PLC0415 - slow to import
 
         run(markdown, out)
 
@@ -325,7 +325,7 @@ def schema(
 def validate() -> None:
     """Print what the thesis published against what is computed here, with the command behind it."""
     with reported(as_json=False):
-        from birdmb.cli.validate import run  # noqa: PLC0415
+        from birdmb.cli.validate import run  # noqa: PLC0415 - slow to import
 
         run()
 

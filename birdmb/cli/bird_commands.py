@@ -17,7 +17,7 @@ commands = typer.Typer()
 def birds(json: Json = False) -> None:
     """List the birds that come with the package, which every command takes by their names."""
     with reported(as_json=json):
-        from birdmb.cli.birds_list import run  # noqa: PLC0415
+        from birdmb.cli.birds_list import run  # noqa: PLC0415 - slow to import
 
         run(as_json=json)
 
@@ -49,7 +49,7 @@ def new(
 ) -> None:
     """Make a topology file of one's own, from another one with its comments or from morphology."""
     with reported():
-        from birdmb.cli.new import run  # noqa: PLC0415
+        from birdmb.cli.new import run  # noqa: PLC0415 - slow to import
 
         run(file, like, morphology)
 
@@ -96,7 +96,7 @@ def scale(
 ) -> None:
     """Scale a bird to another mass, span or frequency; what is not given follows from allometry."""
     with reported():
-        from birdmb.cli.scale import run  # noqa: PLC0415
+        from birdmb.cli.scale import run  # noqa: PLC0415 - slow to import
 
         run(mass, span, frequency, like, out)
 
@@ -192,7 +192,7 @@ def kinematics(
     and which joints the data do not tell: these keep the topology's own motion.
     """
     with reported(as_json=json):
-        from birdmb.cli.kinematics import run  # noqa: PLC0415
+        from birdmb.cli.kinematics import run  # noqa: PLC0415 - slow to import
 
         run(
             file,

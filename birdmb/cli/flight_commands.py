@@ -54,7 +54,7 @@ def flights(
     that there are no others.
     """
     with reported(as_json=json):
-        from birdmb.cli.birds import requested_bird  # noqa: PLC0415
+        from birdmb.cli.birds import requested_bird  # noqa: PLC0415 - slow to import
 
         bird = requested_bird(topology, assignments or [])
 
@@ -78,7 +78,7 @@ def trim(
             metavar="NAME=LOW:HIGH",
             help="Trim by this value of the bird, within the bounds; twice with a --speed.",
             show_default="the offset of the joint that turns the chords, -30 to 30 degrees; with "
-            "a speed the amplitude of the one that flaps too, 15 to 70",
+            "a speed the amplitude of the one that flaps too, 15 to 70, or its gain",
         ),
     ] = None,
     climb_rate: ClimbRate = 0.0,
@@ -96,8 +96,8 @@ def trim(
 ) -> None:
     """Trim the flight of a bird: to level flight, at a wanted speed, or to a climb rate."""
     with reported():
-        from birdmb.cli.birds import requested_bird  # noqa: PLC0415
-        from birdmb.cli.variations import requested_bounds  # noqa: PLC0415
+        from birdmb.cli.birds import requested_bird  # noqa: PLC0415 - slow to import
+        from birdmb.cli.variations import requested_bounds  # noqa: PLC0415 - slow to import
 
         bird = requested_bird(topology, assignments or [])
         bounds = requested_bounds(bird, by, speed, "--by") if by else None
@@ -153,7 +153,7 @@ def tail_study(
     and stability, and the opening of the tail at which flight becomes stable.
     """
     with reported():
-        from birdmb.cli.birds import requested_bird  # noqa: PLC0415
+        from birdmb.cli.birds import requested_bird  # noqa: PLC0415 - slow to import
 
         bird = requested_bird(topology, assignments or [])
 

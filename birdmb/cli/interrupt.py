@@ -123,7 +123,7 @@ def _end_workers() -> None:
     starting_processes.acquire()
     if "multiprocessing" not in sys.modules:
         return
-    import multiprocessing  # noqa: PLC0415
+    import multiprocessing  # noqa: PLC0415 - slow to import
 
     with suppress(Exception):
         workers = multiprocessing.active_children()

@@ -94,8 +94,8 @@ def sweep(
     do not depend on the number of workers or on interruptions.
     """
     with reported():
-        from birdmb.cli.birds import requested_bird  # noqa: PLC0415
-        from birdmb.cli.variations import requested_trim, requested_variations  # noqa: PLC0415
+        from birdmb.cli.birds import requested_bird  # noqa: PLC0415 - slow to import
+        from birdmb.cli.variations import requested_trim, requested_variations  # noqa: PLC0415 - slow to import
 
         variations = requested_variations(vary)
         first = {name: values[0] for name, values in variations.items()}
@@ -162,6 +162,6 @@ def plot(
 ) -> None:
     """Draw a study: lines over one parameter, maps over two, with the boundary of stability."""
     with reported():
-        from birdmb.cli.plot import run  # noqa: PLC0415
+        from birdmb.cli.plot import run  # noqa: PLC0415 - slow to import
 
         run(store, quantity or [], at or [], out)

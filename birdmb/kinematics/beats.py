@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from scipy.optimize import minimize_scalar
 
 from birdmb._typing import FloatArray
 from birdmb.kinematics.errors import KinematicsError
+from birdmb.topology.samples import harmonics_within, series_basis
 
 _SIGNALS = 6  # that move most
 _HARMONICS = 3
@@ -20,25 +19,9 @@ _STILL = 1e-6
 _LEAST_SAMPLES = 0.3  # of the frames, in a signal that tells the frequency
 
 
-def series_basis(phases: FloatArray, harmonics: int) -> FloatArray:
-    """1, cos, sin, cos of twice the phase and so on, (N, 2 H + 1), at `phases` (N,) in beats."""
-    basis = np.ones((phases.size, 2 * harmonics + 1))
-    argument = 2.0 * np.pi * phases[:, None] * np.arange(1, harmonics + 1)
-    basis[:, 1::2], basis[:, 2::2] = np.cos(argument), np.sin(argument)
-    return basis
-
-
 def most_harmonics(phases: FloatArray) -> int:
-    """How many harmonics samples at `phases` (N,), in beats, determine safely.
-
-    As many as have two samples or more in each period even in the widest gap (Groechenig,
-    Mathematics of Computation 59, 1992).
-    """
-    if phases.size < 3:
-        return 0
-    inside = np.sort(np.mod(phases, 1.0))
-    widest = float(np.diff([*inside, inside[0] + 1.0]).max())
-    return max(0, math.ceil(0.5 / widest - 1e-9) - 1)
+    """How many harmonics samples at `phases` (N,), in beats, of any order, determine safely."""
+    return harmonics_within(np.sort(np.mod(phases, 1.0)).tolist()) if phases.size else 0
 
 
 def beat_frequency(times: FloatArray, values: FloatArray, origin: str) -> float:

@@ -11,7 +11,7 @@ import numpy as np
 from birdmb._typing import FloatArray
 from birdmb.errors import ArgumentError
 from birdmb.kinematics.axes import check_axes
-from birdmb.kinematics.beats import beat_frequency, most_harmonics, series_basis
+from birdmb.kinematics.beats import beat_frequency, most_harmonics
 from birdmb.kinematics.described import described
 from birdmb.kinematics.determinacy import told_joints
 from birdmb.kinematics.errors import KinematicsError
@@ -26,6 +26,7 @@ from birdmb.kinematics.result import KinematicsFit
 from birdmb.kinematics.series import Gait, Solved
 from birdmb.threads import one_thread
 from birdmb.topology import Bird, load_bird
+from birdmb.topology.samples import series_basis
 from birdmb.topology.shipped import topology_file
 
 _PASSES = 3

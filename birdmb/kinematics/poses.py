@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from birdmb._typing import FloatArray, IntArray
-from birdmb.kinematics.beats import most_harmonics, series_basis
+from birdmb.kinematics.beats import most_harmonics
 from birdmb.kinematics.observations import Observations, without
+from birdmb.topology.samples import series_basis
 
 PHASES = 24
 _HARMONICS = 4

@@ -131,7 +131,7 @@ class KinematicsFit:
 
     def plot(self) -> Figure:
         """Draw measured beside fitted over the beat."""
-        from birdmb.figures.kinematics import plot_kinematics  # noqa: PLC0415
+        from birdmb.figures.kinematics import plot_kinematics  # noqa: PLC0415 - it draws
 
         return plot_kinematics(self)
 

@@ -9,8 +9,8 @@ from scipy.optimize import least_squares
 
 from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.prescribed import driver_motion_along
-from birdmb.kinematics.beats import series_basis
 from birdmb.kinematics.observations import Observations, without
+from birdmb.topology.samples import series_basis
 
 _LEAST_WEIGHT_SHARE = 0.2  # of the median scatter, below which no marker is believed to scatter
 _REWEIGHTINGS = 3

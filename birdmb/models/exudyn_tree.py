@@ -29,7 +29,7 @@ from birdmb.models.feather_rods import FeatherRod, feather_rods
 from birdmb.models.tree_coordinates import IN_PLANE
 from birdmb.models.tree_kernel import TreeLinks
 from birdmb.topology import Bird
-from birdmb.topology.attachments import steiner
+from birdmb.topology.inertia import joined, steiner
 
 # Of the bird's own: a prescribed joint strays by one part of this, and round-off does not matter.
 _DRIVEN_INERTIA = 1e13
@@ -63,18 +63,8 @@ class _Link:
 
     def add_body(self, mass: float, centre: FloatArray, inertia: FloatArray) -> None:
         """Weld a body on: `centre` (3,) and `inertia` (3, 3) about it, in the link's frame."""
-        total = self.mass + mass
-        if total == 0.0:
-            self.inertia = self.inertia + inertia
-            return
-        joint_centre = (self.mass * self.centre + mass * centre) / total
-        self.inertia = (
-            self.inertia
-            + steiner(self.mass, self.centre - joint_centre)
-            + inertia
-            + steiner(mass, centre - joint_centre)
-        )
-        self.mass, self.centre = total, joint_centre
+        own = self.mass, self.centre, self.inertia
+        self.mass, self.centre, self.inertia = joined([own, (mass, centre, inertia)])
 
 
 def _axis_frame(axis: FloatArray) -> FloatArray:

@@ -122,7 +122,7 @@ class FlightCycle(SteppedCycle):
 
     @property
     def power(self) -> float:
-        """Power that moving the wings against the air takes: minus the sum of force . velocity.
+        """Power that moving the wings against the air takes: minus the work of its loads on them.
 
         With the velocity of the lifting line relative to the body (thesis, chapter 6: P_act).
         """

@@ -42,7 +42,7 @@ def motion_warnings(bird: Bird) -> Iterator[str]:
 
 def is_still(bird: Bird) -> bool:
     """Whether no driver moves."""
-    return all(not np.ptp(driver_motion_along(w, t)[0], axis=0).any() for _, w, t in _wings(bird))
+    return all(joint.on(side).driver.is_still for joint in bird.joints for side in SIDES)
 
 
 def tip_height(bird: Bird) -> float:

@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import AfterValidator, BeforeValidator, Field
 
 from birdmb._typing import FloatArray
-from birdmb.topology.inertia import Tensor, from_diagonal, possible_inertia
+from birdmb.topology.inertia import RigidBody, Tensor, from_diagonal, joined, possible_inertia
 from birdmb.topology.names import Label
 from birdmb.topology.numbers import Coordinate, Mass
 from birdmb.topology.parts import Body, Part
@@ -44,15 +44,10 @@ class Attachment(Part):
         return 2 if self.on == BODY and self.position[1] != 0.0 else 1
 
 
-def steiner(mass: float, r: FloatArray) -> FloatArray:
-    """Inertia tensor (3, 3) kg m2 of a point mass at `r` (3,) m about the origin."""
-    return mass * (float(r @ r) * np.eye(3) - np.outer(r, r))
-
-
 def _joined(
     mass: float, centre: FloatArray, inertia: FloatArray, attached: list[Attachment]
-) -> tuple[float, FloatArray, FloatArray]:
-    """Mass (kg), centre of mass (3,) m and inertia (3, 3) kg m2 about it of bodies in one frame."""
+) -> RigidBody:
+    """A body with what is attached to it."""
     parts = [(mass, centre, inertia)]
     for one in attached:
         place, own = np.array(one.position), np.array(one.inertia)
@@ -60,10 +55,7 @@ def _joined(
         if one.copies == 2:
             mirror = np.diag([1.0, -1.0, 1.0])
             parts.append((one.mass, mirror @ place, mirror @ own @ mirror))
-    total = sum(m for m, _, _ in parts)
-    middle = np.sum([m * r for m, r, _ in parts], axis=0) / total
-    about = np.sum([own + steiner(m, r - middle) for m, r, own in parts], axis=0)
-    return total, middle, about
+    return joined(parts)
 
 
 def segment_with(segment: Segment, attached: list[Attachment]) -> Segment:
@@ -71,8 +63,8 @@ def segment_with(segment: Segment, attached: list[Attachment]) -> Segment:
     mass, centre, inertia = _joined(
         segment.mass, np.array(segment.centre_of_mass), np.array(segment.inertia), attached
     )
-    joined = {"mass": mass, "centre_of_mass": centre.tolist(), "inertia": inertia.tolist()}
-    return Segment.model_validate(segment.model_dump() | joined)
+    whole = {"mass": mass, "centre_of_mass": centre.tolist(), "inertia": inertia.tolist()}
+    return Segment.model_validate(segment.model_dump() | whole)
 
 
 def body_with(body: Body, attached: list[Attachment]) -> tuple[Body, FloatArray]:
@@ -81,11 +73,11 @@ def body_with(body: Body, attached: list[Attachment]) -> tuple[Body, FloatArray]
     Moments of inertia that the body leaves out stay out.
     """
     mass, centre, inertia = _joined(body.mass, np.zeros(3), body.inertia_tensor, attached)
-    joined: dict[str, Any] = {"mass": mass, "inertia_yy": float(inertia[1, 1])}
+    whole: dict[str, Any] = {"mass": mass, "inertia_yy": float(inertia[1, 1])}
     if not body.missing_moments:
-        joined |= {
+        whole |= {
             "inertia_xx": float(inertia[0, 0]),
             "inertia_zz": float(inertia[2, 2]),
             "inertia_xz": float(inertia[0, 2]),
         }
-    return body.model_copy(update=joined), centre
+    return body.model_copy(update=whole), centre

@@ -16,7 +16,7 @@ from birdmb._typing import FloatArray
 from birdmb.topology.messages import problem
 from birdmb.topology.numbers import Angle, Order, Phase
 from birdmb.topology.parts import Part
-from birdmb.topology.samples import DriverFit, even_phases, most_harmonics, series_through
+from birdmb.topology.samples import DriverFit, even_phases, harmonics_within, series_through
 
 _FEWEST_SAMPLES, _MOST_SAMPLES = 3, 1000
 _ROUND_OFF = 1e-17
@@ -217,7 +217,7 @@ def _on_samples(
         if not all(a < b for a, b in pairwise(phases)):
             yield "sample_phases", "must ascend, each phase beyond the one before"
             return
-    most = most_harmonics(phases or even_phases(count))
+    most = harmonics_within(phases or even_phases(count))
     if most == 0:
         yield "sample_phases", "leave half of the beat or more without samples; spread them"
     elif harmonics is not None and harmonics > most:

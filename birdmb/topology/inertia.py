@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import suppress
 from functools import lru_cache
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeAlias
 
 import numpy as np
 from pydantic import WithJsonSchema
@@ -13,6 +14,9 @@ from pydantic.config import JsonDict
 from birdmb._typing import FloatArray
 from birdmb.topology.messages import problem, shown
 from birdmb.topology.numbers import LEAST_INERTIA, Moment
+
+RigidBody: TypeAlias = "tuple[float, FloatArray, FloatArray]"
+"""Mass (kg), centre of mass (3,) m, and inertia (3, 3) kg m2 about it."""
 
 _Row = tuple[Moment, Moment, Moment]
 _THREE: JsonDict = {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}
@@ -95,3 +99,18 @@ def impossible_moments(tensor: FloatArray) -> str:
             "each must be at most the sum of the other two"
         )
     return ""
+
+
+def steiner(mass: float, r: FloatArray) -> FloatArray:
+    """Inertia tensor (3, 3) kg m2 of a point mass at `r` (3,) m about the origin."""
+    return mass * (float(r @ r) * np.eye(3) - np.outer(r, r))
+
+
+def joined(bodies: Sequence[RigidBody]) -> RigidBody:
+    """Several rigid bodies in one frame as one; one without mass has its centre at the origin."""
+    mass = sum(own for own, _, _ in bodies)
+    centre = np.zeros(3)
+    if mass > 0.0:
+        centre = np.sum([own * place for own, place, _ in bodies], axis=0) / mass
+    about = [inertia + steiner(own, place - centre) for own, place, inertia in bodies]
+    return mass, centre, np.sum(about, axis=0)

@@ -41,8 +41,8 @@ def even_phases(count: int) -> tuple[float, ...]:
     return tuple(i / count for i in range(count))
 
 
-def most_harmonics(phases: Sequence[float]) -> int:
-    """How many harmonics samples at these phases determine safely, whatever the angles.
+def harmonics_within(phases: Sequence[float]) -> int:
+    """How many harmonics samples at these ascending phases determine safely, whatever they are.
 
     As many as have two samples or more in each period even in the widest gap: least squares with
     weights are then well conditioned (Gröchenig, Linear Algebra and its Applications 193, 1993).
@@ -59,9 +59,9 @@ def series_through(
     Each sample weighs as much as the part of the beat that it stands for. `harmonics` are kept, or
     by default as few as leave a largest residual below 0.1 % of the samples' range.
     """
-    values, most = np.array(samples), most_harmonics(phases)
+    values, most = np.array(samples), harmonics_within(phases)
     weight = _weights(np.array(phases))
-    basis = _basis(np.array(phases), most)
+    basis = series_basis(np.array(phases), most)
     # Columns in the order of the harmonics: the first 2 K + 1 of them solve for K harmonics.
     q, r = np.linalg.qr(basis * weight[:, None])
     part = q.T @ (values * weight)
@@ -88,8 +88,8 @@ def _weights(phases: FloatArray) -> FloatArray:
     return np.sqrt(0.5 * phases.size * (after + np.roll(after, 1)))
 
 
-def _basis(phases: FloatArray, harmonics: int) -> FloatArray:
-    """1, cos, sin, cos of twice the argument and so on: (N, 2 K + 1)."""
+def series_basis(phases: FloatArray, harmonics: int) -> FloatArray:
+    """1, cos, sin, cos of twice the argument and so on, (N, 2 H + 1), at `phases` (N,) in beats."""
     basis = np.ones((phases.size, 2 * harmonics + 1))
     argument = 2.0 * np.pi * phases[:, None] * np.arange(1, harmonics + 1)
     basis[:, 1::2], basis[:, 2::2] = np.cos(argument), np.sin(argument)
@@ -105,7 +105,7 @@ def _truncation(kept: FloatArray, every: FloatArray, residual: float) -> float:
     left_out[: kept.size] -= kept
     most = every.size // 2
     instants = np.arange(_INSTANTS_PER_PERIOD * most) / (_INSTANTS_PER_PERIOD * most)
-    seen = float(np.abs(_basis(instants, most) @ left_out).max())
+    seen = float(np.abs(series_basis(instants, most) @ left_out).max())
     return max(residual, seen) + _tail(np.hypot(every[1::2], every[2::2]))
 
 

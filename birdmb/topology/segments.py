@@ -30,7 +30,8 @@ class Segment(Part):
     )
     centre_of_mass: tuple[Coordinate, Coordinate, Coordinate] = Field(
         default_factory=lambda validated: (0.0, validated["length"] / 2, 0.0),
-        description="centre of mass from the segment's root, [x, y, z] in m",
+        description="centre of mass from the segment's root, [x, y, z] in m; halfway along the "
+        "bone if left out",
     )
 
 

@@ -116,7 +116,8 @@ def place_of(name: str, known: Mapping[str, Location], owner: str) -> Location:
 def value_at(document: Mapping[str, Any], place: Location) -> Any:
     """The value at a place of a document; an angle also in the unit that is not written.
 
-    One side of a joint has the joint's own value where it has none by itself.
+    One side of a joint has the joint's own value where it has none by itself; what a joint leaves
+    out of the document is as by default.
     """
     *parents, key = place
     table: Any = document

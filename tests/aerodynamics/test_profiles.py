@@ -115,9 +115,7 @@ def test_energy_closes_with_moments_acting(ibis_compliant, model):
 
 def test_hinged_feathers_feel_the_moment():
     """By virtual work: a nose-down moment turns a feather's hinge leading edge down."""
-    from tests.conftest import TOPOLOGIES  # noqa: PLC0415
-
-    bird = birdmb.load_bird(TOPOLOGIES / "ibis_hinged_feathers.toml")
+    bird = birdmb.load_bird("ibis_hinged_feathers")
     plain, cambered = (
         birdmb.RigidModel(b).loads(0.03, [17.0, -0.5, 0.0, 0.0]).right
         for b in (bird, bird.with_values({"wing.profile.moment_coefficient": -0.06}))

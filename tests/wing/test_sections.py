@@ -154,7 +154,7 @@ def test_loads_are_carried_by_the_bone_abreast_of_them():
     assert np.interp(0.2, across, beyond) == pytest.approx(0.5, abs=0.01)
 
 
-def test_five_segments_fly_as_one_with_joints_that_are_still():
+def test_a_bar_in_five_pieces_flies_as_the_whole_one():
     """Exudyn's tree of a bar cut into pieces without joints is that of the whole bar."""
     whole = plate()
     part = {"length": 0.06, "mass": 0.004 / 5, "inertia": [1e-6, 2e-8, 1e-6]}
