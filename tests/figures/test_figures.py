@@ -11,7 +11,7 @@ from matplotlib.collections import PolyCollection
 
 import birdmb
 from birdmb import figures
-from birdmb.figures.style import downstrokes, stroke_speed
+from birdmb.figures.style import downstrokes, holds_still, stroke_speed
 from birdmb.figures.wing import BEHIND, OBLIQUE, TOP
 
 ALL = (
@@ -163,3 +163,14 @@ def test_the_overview_says_first_what_speaks_against_the_numbers(cycle, doubt, s
     vars(doubtful).update(doubt)
     titles = [part.get_suptitle() for part in figures.plot_overview(doubtful).subfigs]
     assert any(says in title for title in titles)
+
+
+def test_a_glide_on_springs_has_no_downstroke():
+    """The spring settles to the orbit's round-off, which is no stroke."""
+    bird = birdmb.load_bird("gull_glider").with_joint("shoulder.flap", stiffness=40.0, damping=0.5)
+    cycle = birdmb.find_limit_cycle(birdmb.MultibodyModel(bird))
+    assert holds_still(cycle)
+    assert downstrokes(cycle) == []
+    labels = {axes.get_xlabel() for axes in cycle.plot().axes}
+    assert "time (s)" in labels
+    assert "time (s), downstroke shaded" not in labels
