@@ -51,7 +51,7 @@ def lifting_line(elements: int) -> Wrench:
     shape = WingShape(
         line, np.zeros((elements, 3)), np.tile(back, each), np.tile(up, each), np.tile(span, each),
         chords(y[0::2]) * np.cos(sweep), np.tile([2.0 * np.pi, 0.0, 0.0], each),
-        np.zeros((elements, 2)), True, np.zeros((0, elements, 6)),
+        np.zeros((elements, 2)), True, np.zeros((0, elements, 6)), np.zeros((elements, 3)),
     )  # fmt: skip
     placed = place_elements(shape, np.zeros(3))
 

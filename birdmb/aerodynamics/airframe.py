@@ -56,35 +56,37 @@ def tail_wind(tail: TailSurface, induced: FloatArray, twist: FloatArray) -> Floa
 def airframe_loads(
     aero: AeroConstants, induced: FloatArray, twist: FloatArray, directions: IntArray
 ) -> FloatArray:
-    """Wrench (6, 1 + d) of tail and body that move with a `twist` (6,); see `twist_loads`.
+    """Wrench (6, 1 + D) of tail and body that move with a `twist` (6,); see `twist_loads`.
 
-    `induced` (2, 1 + d) m/s is the velocity along x and z that the wing's vortices induce at the
-    tail, with its derivatives. The tail lies in the plane of symmetry, where opposite circulations
-    of both wings induce a velocity along y alone; it is left out, for it would only turn friction.
+    `induced` (2, 1 + D) m/s is the velocity along x and z that the wing's vortices induce at the
+    tail, with its derivatives: by the components `directions` (d,), then by what else it depends
+    on. The tail lies in the plane of symmetry, where opposite circulations of both wings induce a
+    velocity along y alone; it is left out, for it would only turn friction.
     """
     tail = aero.tail
-    total = np.zeros((6, directions.size + 1))
+    columns = induced.shape[1]
+    total = np.zeros((6, columns))
     if tail.span > 0.0:
         force = tail_force(tail, aero.density, tail_wind(tail, induced[:, 0], twist))
         total[:3, 0] = force[:, 0]
         slope = np.zeros(3)
-        for m in range(directions.size):
-            component = directions[m]
+        for m in range(columns - 1):
+            component = directions[m] if m < directions.size else -1
             slope[0], slope[1], slope[2] = induced[0, m + 1], 0.0, induced[1, m + 1]
-            if component < 3:
+            if 0 <= component < 3:
                 slope[component] -= 1.0
             elif component == 3:
                 slope[1] += tail.z
             elif component == 4:
                 slope[0] -= tail.z
                 slope[2] += tail.x
-            else:
+            elif component == 5:
                 slope[1] -= tail.x
             for i in range(3):
                 total[i, m + 1] = (
                     force[i, 1] * slope[0] + force[i, 2] * slope[1] + force[i, 3] * slope[2]
                 )
-        for m in range(directions.size + 1):
+        for m in range(columns):
             fx, fy, fz = total[0, m], total[1, m], total[2, m]
             total[3, m] = -tail.z * fy
             total[4, m] = tail.z * fx - tail.x * fz

@@ -34,6 +34,9 @@ class WingShape(NamedTuple):
     distal_fraction: FloatArray  # (N, B - 1) of the element's load, carried beyond each bone
     converged: bool  # the line was found, and its chords point backwards along the first bone
     hinge_twist: FloatArray  # (H, N, 6) velocity (m) of the control point and spin of the chord
+    chord_rate: (
+        FloatArray  # (N, 3) m/s, rate of change of the chords, from leading to trailing edge
+    )
 
 
 @kernel
@@ -176,6 +179,7 @@ def shape_of_edges(
         shape.distal_fraction,
         shape.converged and sound,
         shape.hinge_twist,
+        shape.chord_rate,
     )
     return shape, per_rate
 
@@ -193,6 +197,7 @@ def _no_shape(wing: WingArrays, elements: int) -> WingShape:
         distal_fraction=np.zeros((elements, wing.bone_length.size - 1)),
         converged=False,
         hinge_twist=np.zeros((wing.offset.size - wing.segment.size, elements, 6)),
+        chord_rate=vectors,
     )
 
 
@@ -210,13 +215,15 @@ def _assemble(
     line = 0.75 * pairs.leading + 0.25 * pairs.trailing
     chord = np.empty(n)
     chord_direction = np.empty((n, 3))
+    chord_rate = np.empty((n, 3))
     normal = np.empty((n, 3))
     span = np.empty((n, 3))
     along = np.empty(3)
     for e in range(n):
         c, up, j = chord_direction[e], normal[e], 2 * e
         for i in range(3):
-            c[i] = pairs.trailing[j, i].real - pairs.leading[j, i].real
+            across = pairs.trailing[j, i] - pairs.leading[j, i]
+            c[i], chord_rate[e, i] = across.real, across.imag / COMPLEX_STEP
             # Central differences, one-sided at the shoulder: stations crowd there like j^2, so that
             # it errs by no more.
             along[i] = guide[j + 1, i].real - guide[max(j - 1, 0), i].real
@@ -243,6 +250,7 @@ def _assemble(
         _distal_fractions(arc, wing.bone_end, rounding),
         pairs.converged,
         hinge_twist,
+        chord_rate,
     )
 
 
@@ -254,11 +262,17 @@ def turned(shape: WingShape, R: FloatArray, spin: FloatArray) -> WingShape:
     """
     line = shape.line @ R.T
     velocity = shape.velocity @ R.T
+    chord_rate = shape.chord_rate @ R.T
+    chord_direction = shape.chord_direction @ R.T
     for e in range(velocity.shape[0]):
         p = line[2 * e]
         velocity[e, 0] += spin[1] * p[2] - spin[2] * p[1]
         velocity[e, 1] += spin[2] * p[0] - spin[0] * p[2]
         velocity[e, 2] += spin[0] * p[1] - spin[1] * p[0]
+        c, size = chord_direction[e], shape.chord[e]
+        chord_rate[e, 0] += size * (spin[1] * c[2] - spin[2] * c[1])
+        chord_rate[e, 1] += size * (spin[2] * c[0] - spin[0] * c[2])
+        chord_rate[e, 2] += size * (spin[0] * c[1] - spin[1] * c[0])
     hinge_twist = np.empty_like(shape.hinge_twist)
     for h in range(hinge_twist.shape[0]):
         hinge_twist[h, :, :3] = np.ascontiguousarray(shape.hinge_twist[h, :, :3]) @ R.T
@@ -266,7 +280,7 @@ def turned(shape: WingShape, R: FloatArray, spin: FloatArray) -> WingShape:
     return WingShape(
         line,
         velocity,
-        shape.chord_direction @ R.T,
+        chord_direction,
         shape.normal @ R.T,
         shape.span_direction @ R.T,
         shape.chord,
@@ -274,4 +288,5 @@ def turned(shape: WingShape, R: FloatArray, spin: FloatArray) -> WingShape:
         shape.distal_fraction,
         shape.converged,
         hinge_twist,
+        chord_rate,
     )

@@ -26,6 +26,7 @@ class StackedShapes(NamedTuple):
     distal_fraction: FloatArray  # (P, N, B - 1)
     converged: BoolArray  # (P,)
     hinge_twist: FloatArray  # (P, H, N, 6)
+    chord_rate: FloatArray  # (P, N, 3)
     singly: IntArray  # (M,) angles whose own effect on the velocity is known
     rates: FloatArray  # (P, M) rad/s of these, of which `velocity` is made
     velocity_per_rate: FloatArray  # (P, M, N, 3) m
@@ -66,24 +67,9 @@ def _made_singly(
         wing_shape(wing, *of_one, elements=elements, rounding=rounding, published=published)
         for of_one in zip(angles, rates, strict=True)
     ]
-    line, velocity, chords, normal, span, chord, profile, distal_fraction, converged, per_hinge = (
-        np.array(arrays) for arrays in zip(*shapes, strict=True)
-    )
-    return StackedShapes(
-        line,
-        velocity,
-        chords,
-        normal,
-        span,
-        chord,
-        profile,
-        distal_fraction,
-        converged,
-        per_hinge,
-        moving,
-        rates[:, moving],
-        np.full((len(shapes), moving.size, elements, 3), np.nan),
-    )
+    stacked = [np.array(arrays) for arrays in zip(*shapes, strict=True)]
+    apart = np.full((len(shapes), moving.size, elements, 3), np.nan)
+    return StackedShapes._make([*stacked, moving, rates[:, moving], apart])
 
 
 @kernel
@@ -108,6 +94,7 @@ def _made(
         np.empty((count, elements, wing.bone_length.size - 1)),
         np.empty(count, np.bool_),
         np.empty((count, hinges, elements, 6)),
+        np.empty((count, elements, 3)),
         moving,
         rates[:, moving],
         np.empty((count, moving.size, elements, 3)),
@@ -127,6 +114,7 @@ def _made(
         stack.distal_fraction[k] = shape.distal_fraction
         stack.converged[k] = shape.converged
         stack.hinge_twist[k] = shape.hinge_twist
+        stack.chord_rate[k] = shape.chord_rate
     return stack
 
 
@@ -144,6 +132,7 @@ def shape_at(stack: StackedShapes, k: int) -> WingShape:
         stack.distal_fraction[k],
         stack.converged[k],
         stack.hinge_twist[k],
+        stack.chord_rate[k],
     )
 
 

@@ -46,6 +46,7 @@ def flat_wing(chord_at, elements, semi_span=1.0, plunge=0.0):
         np.zeros((n, 2)),
         True,
         np.zeros((0, n, 6)),
+        np.zeros((n, 3)),
     )
 
 

@@ -61,7 +61,7 @@ def plane_wing(elements):
     return WingShape(
         line, still, np.tile(back, each), np.tile(up, each), np.tile(span, each),
         chord[0::2] * np.cos(sweep), np.tile(THIN, each), np.zeros((elements, 2)), True,
-        np.zeros((0, elements, 6)),
+        np.zeros((0, elements, 6)), np.zeros((elements, 3)),
     )  # fmt: skip
 
 
