@@ -1,0 +1,9 @@
+"""Figures and tables of chapter 8."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from birdmb.reproduction.figures.drawing import Drawing
+
+DRAWINGS: Mapping[str, Drawing] = {}
