@@ -170,7 +170,7 @@ def _flown_along_body(
             return states, failure
     raise ArgumentError(
         f"the attitude in this gust along the body's axes does not settle in {_MOST_FLIGHTS} "
-        f"flights; take a weaker gust, fewer periods or axes=\"world\"."
+        f'flights; take a weaker gust, fewer periods or axes="world".'
     )
 
 
