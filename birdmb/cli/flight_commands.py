@@ -264,11 +264,35 @@ def tail_study(
             "missing in it is computed.",
         ),
     ],
+    vary: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME=VALUES",
+            help="Values, as of `birdmb sweep --vary`, of tail.opening_deg and of one or two more.",
+            show_default="an opening of 0 to 45 degrees, the flap amplitude 1.1 to 0.7 times the "
+            "bird's own, the offset of the sweep up to 3 degrees to either side",
+        ),
+    ] = None,
+    trim: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME=LOW:HIGH",
+            help="Level the flight by this value of the bird, within the bounds.",
+            show_default="the offset of the joint that turns the chords, -30 to 30 degrees",
+        ),
+    ] = None,
+    limit: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME=LARGEST",
+            help="Count flights only up to this modulus of a quantity, angles in degrees: "
+            "mean_pitch=6, forearm.roll.offset_deg=12, largest_tail_angle=5. Repeatable.",
+            show_default="largest_tail_angle=5, the tail's validity",
+        ),
+    ] = None,
     every: Annotated[
         int,
-        typer.Option(
-            min=1, metavar="N", help="Take one of N values; 5 is a coarse study of minutes."
-        ),
+        typer.Option(min=1, metavar="N", help="Take one of N values, for a coarse study."),
     ] = 1,
     workers: Workers = None,
     assignments: Assignments = None,
@@ -277,16 +301,33 @@ def tail_study(
         typer.Option(metavar="DIR", help="Write dataset (NetCDF) and figures into this directory."),
     ] = None,
 ) -> None:
-    """Level the flight for 19 734 tail openings and gaits: what stability costs (rigid bird).
+    """Level the flight for many tail openings and gaits: what stability costs (rigid bird).
 
     Figures: the manifold of level flights, the least cost at each speed, the Pareto front of cost
     and stability, and the opening of the tail at which flight becomes stable.
     """
     with reported():
         from birdmb.cli.birds import requested_bird  # noqa: PLC0415 - slow to import
+        from birdmb.cli.variations import (  # noqa: PLC0415 - slow to import
+            requested_bounds,
+            requested_limits,
+            requested_variations,
+        )
 
         bird = requested_bird(topology, assignments or [])
+        varied = requested_variations(vary) if vary else None
+        bounds = requested_bounds(bird, trim, None, "--trim") if trim else None
+        limits = requested_limits(limit or ["largest_tail_angle=5"])
 
-        from birdmb.cli.tail_study import run  # noqa: PLC0415 - not before the bird is sound
+        from birdmb.cli.tail_study import run  # noqa: PLC0415 - not before all of it is sound
 
-        run(bird, store, every=every, workers=workers, out=out)
+        run(
+            bird,
+            store,
+            vary=varied,
+            trim=bounds,
+            limits=limits,
+            every=every,
+            workers=workers,
+            out=out,
+        )

@@ -163,7 +163,7 @@ def _mode(mode: xr.Dataset) -> dict[str, object]:
     multiplier = complex(float(mode["multiplier_real"]), float(mode["multiplier_imag"]))
     turned = abs(math.atan2(multiplier.imag, multiplier.real))
     period = mode.attrs["period"] * 2.0 * math.pi / turned if turned else math.inf
-    largest = np.abs(mode["mode_deviation"]).max("time").values
+    largest = abs(mode["mode_deviation"]).max("time").values
     return {
         "multiplier": [multiplier.real, multiplier.imag],
         "period": finite(period),
@@ -179,7 +179,7 @@ def _largest(flight: xr.Dataset) -> tuple[dict[str, float | None], dict[str, flo
     """Largest deviation of each state from the cycle, and from the linear response."""
     found = []
     for values in (flight["deviation"], flight["deviation"] - flight["linear"]):
-        largest = np.abs(values).max("time").values
+        largest = abs(values).max("time").values
         found.append(dict(zip(_states(flight), map(finite, largest), strict=True)))
     return found[0], found[1]
 

@@ -59,11 +59,11 @@ def gust_response(
     Returns:
         By `time` (s): `states` by the full model (by `state`), the undisturbed `orbit`, their
         difference `deviation`, the `linear` deviation, `gust` (m/s, by `direction`: "forward",
-        "right", "up", along `axes`), path `X` and height `h` (m) with and (`orbit_X`, `orbit_h`) without the
-        gust, and `Y` to the right where the bird moves in space; by `mode` the part of each in the
-        linear deviation, `mode_deviation` (a conjugate pair is one mode), with `multiplier_real`
-        and `multiplier_imag`. `attrs["failure"]` says why the full model ended early, its states
-        then being NaN; it is empty if it did not.
+        "right", "up", along `axes`), path `X` and height `h` (m) with and (`orbit_X`, `orbit_h`)
+        without the gust, and `Y` to the right where the bird moves in space; by `mode` the part of
+        each in the linear deviation, `mode_deviation` (a conjugate pair is one mode), with
+        `multiplier_real` and `multiplier_imag`. `attrs["failure"]` says why the full model ended
+        early, its states then being NaN; it is empty if it did not.
 
     Raises:
         ArgumentError: numbers that are not positive, a gust that is no velocity, axes of no such

@@ -140,7 +140,7 @@ def test_a_gust_along_the_body_is_a_velocity_added_to_the_bodys(cycles):
         forward, up, _ = gust(t)
         found = cycle.model.rhs(t, x - [forward, -up, 0.0, 0.0])
         # These rates have -q w and q u of the relative velocity.
-        return found + [-x[2] * -up, x[2] * forward, 0.0, 0.0]
+        return found + x[2] * np.array([up, forward, 0.0, 0.0])
 
     times = flight.time.values
     exact = solve_ivp(rates, times[[0, -1]], cycle.x0, t_eval=times, rtol=1e-9, atol=1e-10).y.T
