@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 from birdmb.errors import ArgumentError
-from birdmb.reproduction import appendices, chapter5, chapter6, chapter7, chapter8
+from birdmb.reproduction import (
+    appendices,
+    chapter3,
+    chapter5,
+    chapter6,
+    chapter7,
+    chapter8,
+)
 from birdmb.reproduction.published import Case
 
-_MODULES = (chapter5, chapter6, chapter7, chapter8, appendices)
+_MODULES = (chapter3, chapter5, chapter6, chapter7, chapter8, appendices)
 
 
 def published_cases(chapter: str | None = None, *, long: bool = False) -> list[Case]:

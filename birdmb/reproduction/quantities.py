@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+import xarray as xr
 
-from birdmb.models import FlightCycle
+from birdmb._typing import FloatArray
+from birdmb.models import FlightCycle, RigidModel
+from birdmb.orbits import find_limit_cycle
 from birdmb.topology import Bird, load_bird
 
 PUBLISHED_WING = {"wing.discretisation": "published"}
@@ -36,6 +39,12 @@ def orbit_quantities(cycle: FlightCycle) -> dict[str, float]:
     }
 
 
+def multiplier_moduli(study: xr.Dataset) -> FloatArray:
+    """Moduli of the multipliers of a parameter study, (values, multipliers)."""
+    real, imag = study["multiplier_real"].values, study["multiplier_imag"].values
+    return np.asarray(np.hypot(real, imag))
+
+
 def flight_quantities(cycle: FlightCycle) -> dict[str, float]:
     """Largest |multiplier|, powers and means of a cycle."""
     return {
@@ -47,3 +56,8 @@ def flight_quantities(cycle: FlightCycle) -> dict[str, float]:
         "P_g": cycle.potential_power,
         "cost of transport": cycle.cost_of_transport,
     }
+
+
+def reference_cycle(**values: object) -> FlightCycle:
+    """Limit cycle of the rigid reference bird with the published wing, with further values."""
+    return find_limit_cycle(RigidModel(published_wing("ibis", **values)))
