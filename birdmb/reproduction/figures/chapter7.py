@@ -50,14 +50,17 @@ def _states(out: Path, _coarse: bool) -> None:
 def _masses(out: Path, coarse: bool) -> None:
     one = bird("ibis_massless", **({"wing__discretisation": 8} if coarse else {}))
     rigid = find_limit_cycle(
-        RigidModel(one, steps_per_beat=_RIGID_STEPS), tolerance=_TOLERANCE, jacobian="variational"
+        RigidModel(one, steps_per_beat=_RIGID_STEPS),
+        method="shooting",
+        tolerance=_TOLERANCE,
+        jacobian="variational",
     )
     masses = _COARSE_MASSES if coarse else _MASSES
     rows: list[list[object]] = []
     gaps = []
     for mass in masses.tolist():
         model = MultibodyModel(with_segment_mass(one, mass), steps_per_beat=_STEPS)
-        cycle = find_limit_cycle(model, rigid.x0, tolerance=_TOLERANCE)
+        cycle = find_limit_cycle(model, rigid.x0, method="shooting", tolerance=_TOLERANCE)
         states = cycle.x0 - rigid.x0
         apart = np.sort_complex(cycle.multipliers) - np.sort_complex(rigid.multipliers)
         largest = float(np.abs(apart).max())
