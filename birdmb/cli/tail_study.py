@@ -13,6 +13,7 @@ import xarray as xr
 from birdmb.cli.console import messages
 from birdmb.cli.drawing import plain_style
 from birdmb.cli.files import prepare, reject_overwriting, write_dataset, write_figure
+from birdmb.cli.outcome import InputError
 from birdmb.cli.progress import Progress
 from birdmb.cli.sweep import SweepProgress, ignored_springs
 from birdmb.figures.tail_study import (
@@ -22,10 +23,12 @@ from birdmb.figures.tail_study import (
     plot_stability_openings,
 )
 from birdmb.models import RigidModel
+from birdmb.quantities import BY_NAME
 from birdmb.studies.stability_opening import StabilityOpening, stability_openings
 from birdmb.studies.sweeps.verdicts import jump_lines, short, verdict_lines
 from birdmb.studies.tail import OPENING, gait_parameters, tail_study, within_limits
 from birdmb.studies.tail_price import PriceOfStability, price_of_stability
+from birdmb.studies.trim_defaults import default_parameters
 from birdmb.topology import Bird
 
 if TYPE_CHECKING:
@@ -45,7 +48,14 @@ def run(
     workers: int | None,
     out: Path | None,
 ) -> None:
-    """Fill the store, say what it holds, and draw it."""
+    """Fill the store, say what it holds, and draw it.
+
+    Raises:
+        InputError: a limit of what does not describe flights.
+    """
+    for name in limits:
+        if name not in {*BY_NAME, *(trim or default_parameters(bird, 1))}:
+            raise InputError(f"--limit {name}: flights are not described by it.")
     if out is not None:
         prepare(out)
         reject_overwriting(store, out, [f"{store.stem}.nc"])

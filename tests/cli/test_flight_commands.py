@@ -137,10 +137,26 @@ def test_tail_study(run, tmp_path):
     assert names == {"tail.nc"} | {f"tail_{name}.png" for name in figures}
 
 
+@pytest.mark.parametrize(
+    ("limit", "said"),
+    [
+        ("mean_yaw=3", "flights are not described by it"),
+        ("mean_pitch", "NAME=LARGEST"),
+        ("mean_pitch=-1", "NAME=LARGEST"),
+    ],
+)
+def test_impossible_limits_are_told_before_anything_is_flown(run, tmp_path, limit, said):
+    store = tmp_path / "x.db"
+    done = run("tail-study", TAIL, "--store", str(store), "--limit", limit)
+    assert done.exit_code == 2
+    assert said in " ".join(done.stderr.split())
+    assert not store.exists()
+
+
 def test_tail_study_needs_a_tail(run, tmp_path):
     done = run("tail-study", IBIS, "--store", str(tmp_path / "x.db"))
     assert done.exit_code == 2
-    assert "tail.opening_deg" in done.stderr
+    assert "ibis has no tail" in done.stderr
 
 
 @pytest.mark.long
