@@ -336,7 +336,8 @@ def validate(
     """Print what the thesis published against what is computed here, with the command behind it.
 
     Each number passes within its tolerance; else it differs, or the thesis contradicts itself or
-    its own program, with the reason. Takes half a minute, with --all some minutes. `python -m birdmb.reproduction` draws figures and tables.
+    its own program, with the reason. Takes half a minute, with --all some minutes.
+    `python -m birdmb.reproduction` draws figures and tables.
     """
     with reported(as_json=json):
         from birdmb.cli.validate import run  # noqa: PLC0415 - slow to import
