@@ -34,4 +34,4 @@ def test_rows():
     )
     lines = as_markdown([one]).splitlines()
     assert lines[0] == "### Chapter 5"
-    assert lines[-1] == r"| gait | \|Λ\| | 1.4 | 1.5 | contradicts | printed twice |"
+    assert lines[-1] == r"| gait | \|Λ\| | 1.4 | 1.500 | contradicts | printed twice |"
