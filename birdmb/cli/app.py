@@ -329,16 +329,20 @@ def validate(
     ] = None,
     long: Annotated[bool, typer.Option("--all", help="Those that take minutes, too.")] = False,
     json: Json = False,
+    markdown: Annotated[
+        bool, typer.Option("--markdown", help="Print the tables of docs/thesis.md.")
+    ] = False,
 ) -> None:
     """Print what the thesis published against what is computed here, with the command behind it.
 
     Each number passes within its tolerance; else it differs, or the thesis contradicts itself or
-    its own program, with the reason. `python -m birdmb.reproduction` draws figures and tables.
+    its own program, with the reason. Takes half a minute, with --all some minutes.
+    `python -m birdmb.reproduction` draws figures and tables.
     """
     with reported(as_json=json):
         from birdmb.cli.validate import run  # noqa: PLC0415 - slow to import
 
-        run(chapter, long=long, as_json=json)
+        run(chapter, long=long, as_json=json, as_markdown=markdown)
 
 
 app.add_typer(study_commands)

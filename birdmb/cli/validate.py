@@ -11,8 +11,10 @@ import typer
 from rich.console import Console
 
 from birdmb.cli.console import messages, output
+from birdmb.cli.outcome import InputError
 from birdmb.cli.progress import Progress, at_work
 from birdmb.cli.report import table_of
+from birdmb.reproduction import page
 from birdmb.reproduction.cases import published_cases
 from birdmb.reproduction.published import Comparison, compare
 
@@ -20,8 +22,10 @@ DISAGREES = 1
 _STYLES = {"pass": "green", "differs": "yellow", "contradicts": "magenta"}
 
 
-def run(chapter: str | None, *, long: bool, as_json: bool) -> None:
+def run(chapter: str | None, *, long: bool, as_json: bool, as_markdown: bool) -> None:
     """Compute the published cases with the birds of the package and print both side by side."""
+    if as_json and as_markdown:
+        raise InputError("--json and --markdown are two forms of the same; give one of them.")
     console, progress = output(), Progress(messages())
     cases = published_cases(chapter, long=long)
     found: list[Comparison] = []
@@ -31,12 +35,14 @@ def run(chapter: str | None, *, long: bool, as_json: bool) -> None:
             progress.doing(case.source)
             compared = compare(case)
         found += compared
-        if not as_json:
+        if not (as_json or as_markdown):
             _print(console, compared)
     failing = [one for one in found if one.fails]
     if as_json:
         json.dump(_as_object(found), sys.stdout, indent=2, allow_nan=False)
         typer.echo()
+    elif as_markdown:
+        typer.echo(page.as_markdown(found))
     else:
         _summarise(console, found, failing)
     if failing:
@@ -64,9 +70,9 @@ def _print(console: Console, compared: Sequence[Comparison]) -> None:
         table.columns[5].no_wrap = True
         for one in compared:
             table.add_row(
-                f"{one.quantity}, {one.unit}" if one.unit else one.quantity,
-                f"{one.published:g}",
-                f"{one.computed:.6g}",
+                page.with_unit(one),
+                f"{one.published:.10g}",
+                page.computed(one),
                 f"{one.difference:+.2g}",
                 f"{one.tolerance:.2g}",
                 one.verdict,

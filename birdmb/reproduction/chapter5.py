@@ -19,6 +19,7 @@ from birdmb.reproduction.quantities import (
     published_wing,
     reference_cycle,
 )
+from birdmb.reproduction.stopped_circulation import StoppedCirculation
 from birdmb.studies.parameter_study import parameter_study
 from birdmb.studies.trim import trim_flight
 from birdmb.topology import Bird
@@ -26,7 +27,15 @@ from birdmb.topology import Bird
 _RIGID = "birdmb cycle ibis --model rigid"
 _PROGRAM = (
     "the published program, run again, gives u = 18.068 m/s and multipliers 1.410, "
-    "0.824 ± 0.263 i, 0.198 for this gait"
+    "0.824 ± 0.263 i, 0.198 for this gait; its circulation stopped at 1 % makes the difference"
+)
+_STOPPED = (
+    "the program counts the steps of its circulation anew in every state, so that its loads jump; "
+    "here they are counted once"
+)
+_NOISE = (
+    "not explained: the jumps of the stopped circulation scatter multipliers by differences by "
+    "0.006; 1.408, that of the exact circulation, fits the printed doubling time"
 )
 _COARSE = "the converged wing; the published discretisation is 1 to 2 % off"
 
@@ -53,6 +62,19 @@ def _reference_gait(expected: Verdict, reason: str) -> tuple[Published, ...]:
     return tuple(Published(*row, expected, reason) for row in printed)
 
 
+def _stopped_early() -> tuple[Published, ...]:
+    return (
+        Published("u", "m/s", 18.24, 0.02, reason=_STOPPED),
+        Published("w", "m/s", -1.93, 0.02, reason=_STOPPED),
+        Published("q", "rad/s", -0.10, 0.015, reason=_STOPPED),
+        Published("theta", "rad", -0.115, 0.002, reason=_STOPPED),
+        Published("multiplier 1", "", 1.40, 0.005, "differs", _NOISE),
+        Published("multiplier 2, Re", "", 0.829, 0.005, reason=_STOPPED),
+        Published("multiplier 2, Im", "", 0.260, 0.001, reason=_STOPPED),
+        Published("multiplier 4", "", 0.212, 0.005, reason=_STOPPED),
+    )
+
+
 def _orbit(one: Bird) -> Mapping[str, float]:
     return orbit_quantities(find_limit_cycle(RigidModel(one)))
 
@@ -77,7 +99,7 @@ def margin_study(one: Bird, values: int) -> xr.Dataset:
 
 
 def _margin() -> Mapping[str, float]:
-    study = margin_study(published_wing("ibis"), 21)
+    study = margin_study(published_wing("ibis"), 9)
     largest = multiplier_moduli(study).max(axis=1)
     flying = np.isfinite(largest)
     return {
@@ -98,6 +120,15 @@ CASES = (
         f"{_RIGID} --set wing.discretisation=published",
         lambda: _orbit(published_wing("ibis")),
         _reference_gait("contradicts", _PROGRAM),
+    ),
+    Case(
+        "5",
+        "chapter 5, reference gait, published discretisation, circulation stopped at 1 %",
+        "birdmb validate --chapter 5",
+        lambda: orbit_quantities(
+            find_limit_cycle(StoppedCirculation(published_wing("ibis"), stop_at=1e-2))
+        ),
+        _stopped_early(),
     ),
     Case(
         "5",
@@ -148,7 +179,8 @@ CASES = (
                 43.47,
                 0.005,
                 "contradicts",
-                "the published program, run again, levels the flight at 43.55 deg",
+                "the published program, run again, levels the flight at 43.55 deg, and so does its "
+                "circulation stopped at 0.1 %; the exact one at 43.32 deg",
             ),
         ),
     ),

@@ -35,7 +35,7 @@ def test_each_case_is_printed_with_its_command_difference_and_reason(validated):
     result = validated([case(explained), case(unexplained, lost)])
     assert result.exit_code == 0
     words = [line.split() for line in result.stdout.splitlines()]
-    assert ["u,", "m/s", "18", "17.5", "-0.5", "0.05", "differs"] in words
+    assert ["u,", "m/s", "18", "17.500", "-0.5", "0.05", "differs"] in words
     assert "  birdmb cycle ibis.toml" in result.stdout
     assert "  a coarser wing" in result.stdout
     assert "nothing computed: the flight diverged." in result.stdout
