@@ -16,10 +16,11 @@ from birdmb._typing import FloatArray
 from birdmb.figures.sweep import parameter_label
 from birdmb.studies.stability_opening import StabilityOpening
 from birdmb.studies.tail import OPENING, VALID, gait_parameters, pareto_front, within_limits
+from birdmb.studies.tail_price import least_costs
 from birdmb.text import in_figure
 
 _PANELS = 4
-_SPEED_BINS = 0.25  # m/s
+_SPEED_STEP = 0.1  # m/s
 _MARGIN = 0.08  # of the Pareto front's extent, around it
 
 
@@ -111,20 +112,15 @@ def plot_envelope(
         at = kept.sel({OPENING: opening}, method="nearest")
         speed, cost = at["mean_speed"].values.ravel(), at["cost_of_transport"].values.ravel()
         axes.plot(speed, cost, ".", color=colour, ms=3, alpha=0.35)
-        axes.plot(*_lower_envelope(speed, cost), color=colour, lw=1.8, label=f"{opening:g}°")
+        if np.isfinite(speed).any():
+            speeds = np.arange(np.nanmin(speed), np.nanmax(speed), _SPEED_STEP)
+            least = least_costs(data.sel({OPENING: [at[OPENING]]}), speeds.tolist(), limits=limits)
+            axes.plot(speeds, least, color=colour, lw=1.8, label=f"{opening:g}°")
     axes.set(xlabel="speed of level flight (m/s)", ylabel="cost of transport")
     axes.legend(title="tail opening", frameon=False)
     axes.spines[["top", "right"]].set_visible(False)
     axes.set_title(f"{in_figure(data.attrs['bird'])}: least cost at each speed", fontsize="medium")
     return figure
-
-
-def _lower_envelope(speed: FloatArray, cost: FloatArray) -> tuple[FloatArray, FloatArray]:
-    known = np.isfinite(speed) & np.isfinite(cost)
-    speed, cost = speed[known], cost[known]
-    places = np.floor(speed / _SPEED_BINS)
-    lowest = [np.flatnonzero(places == p)[np.argmin(cost[places == p])] for p in np.unique(places)]
-    return speed[lowest], cost[lowest]
 
 
 def plot_pareto(data: xr.Dataset, limits: Mapping[str, float] = VALID) -> Figure:

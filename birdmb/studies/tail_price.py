@@ -73,6 +73,18 @@ def price_of_stability(
     return tuple(rows)
 
 
+def least_costs(
+    data: xr.Dataset, speeds: Sequence[float], *, limits: Mapping[str, float] = VALID
+) -> FloatArray:
+    """Least cost of transport (K,) of level flights at speeds (K,) m/s, NaN where there is none.
+
+    As of `price_of_stability`.
+    """
+    data = data.sortby([str(name) for name in data["cost_of_transport"].dims])
+    allowed = within_limits(data, limits).transpose(*data["cost_of_transport"].dims).values
+    return np.array([_cheapest(data, allowed, speed)[0] for speed in speeds])
+
+
 def _cheapest(data: xr.Dataset, kept: BoolArray, wanted: float) -> tuple[float, float]:
     """Least cost at a speed among the flights kept, with the opening; NaN where there is none."""
     candidates = [found for pair in _pairs(data, kept) for found in _between(*pair, wanted)]

@@ -12,6 +12,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from birdmb._typing import FloatArray
 from birdmb.errors import BirdmbError
 from birdmb.figures import plot_manifold, plot_pareto
 from birdmb.models import RigidModel
@@ -28,11 +29,11 @@ from birdmb.reproduction.quantities import PUBLISHED_WING, ROLL_OFFSET
 from birdmb.reproduction.tail_study import RULES, TRIM, VALID_RULES, chapter_6_study
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.tail import OPENING, pareto_front, within_limits
-from birdmb.studies.tail_price import price_of_stability
+from birdmb.studies.tail_price import least_costs, price_of_stability
 from birdmb.studies.trim import trim_flight
 
 _FRONTS = (0.0, 15.0, 30.0, 45.0)  # degrees of opening
-_COARSE, _SPEED_BINS = 15, 0.25
+_COARSE, _SPEED_STEP = 15, 0.1
 _ALONG: Values = {"tail.incidence_deg": 0.0}
 _NO_DOWNWASH: Values = {**_ALONG, "tail.downwash": "none"}
 _SHORT: Values = {"tail.chord": 0.25}
@@ -76,7 +77,7 @@ def _figure_6_5(out: Path, coarse: bool) -> None:
         kept = at.where(within_limits(at, RULES))
         cost = kept["cost_of_transport"].values.ravel()
         label = f"{opening:g}°"
-        _lower(by_speed, kept["mean_speed"].values.ravel(), cost, colour, label)
+        _least(by_speed, data, opening, colour, label)
         _front(by_modulus, kept["largest_modulus"].values.ravel(), cost, colour, label)
     by_speed.set(xlabel="speed of level flight (m/s)", ylabel="cost of transport", title="(a)")
     by_modulus.axvline(1.0, color="0.5", lw=0.8, ls="--")
@@ -90,18 +91,19 @@ def _figure_6_5(out: Path, coarse: bool) -> None:
     keep_table(out, "figure 6.5 price of stability", *_price(data))
 
 
-def _lower(axes: Axes, speed: np.ndarray, cost: np.ndarray, colour: np.ndarray, label: str) -> None:
-    """The flights, and the least cost among those of nearly the same speed."""
-    axes.plot(speed, cost, ".", color=colour, ms=2.5, alpha=0.3)
-    known = np.isfinite(speed) & np.isfinite(cost)
-    speed, cost = speed[known], cost[known]
-    bins = np.floor(speed / _SPEED_BINS)
-    lowest = [np.flatnonzero(bins == b)[cost[bins == b].argmin()] for b in np.unique(bins)]
-    axes.plot(speed[lowest], cost[lowest], color=colour, lw=1.8, label=label)
+def _least(axes: Axes, data: xr.Dataset, opening: float, colour: FloatArray, label: str) -> None:
+    """The flights with the tail at an opening, and the least cost at each speed among them."""
+    at = data.sel({OPENING: [opening]})
+    kept = at.where(within_limits(at, RULES))
+    speed = kept["mean_speed"].values.ravel()
+    axes.plot(speed, kept["cost_of_transport"].values.ravel(), ".", color=colour, ms=2.5, alpha=0.3)
+    if np.isfinite(speed).any():
+        speeds = np.arange(np.nanmin(speed), np.nanmax(speed), _SPEED_STEP)
+        axes.plot(speeds, least_costs(at, speeds.tolist(), limits=RULES), color=colour, label=label)
 
 
 def _front(
-    axes: Axes, modulus: np.ndarray, cost: np.ndarray, colour: np.ndarray, label: str
+    axes: Axes, modulus: FloatArray, cost: FloatArray, colour: FloatArray, label: str
 ) -> None:
     """The flights, and those that no other of this opening beats in both."""
     axes.plot(modulus, cost, ".", color=colour, ms=2.5, alpha=0.3)

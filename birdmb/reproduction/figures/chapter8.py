@@ -14,6 +14,7 @@ from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
+from birdmb._typing import FloatArray
 from birdmb.errors import BirdmbError
 from birdmb.figures.style import symbol
 from birdmb.models import FlightCycle
@@ -79,7 +80,7 @@ def _overlay(springs: Sequence[Spring], name: str, out: Path, coarse: bool) -> N
     keep_figure(out, name, figure)
 
 
-def _state(axes: Axes, cycle: FlightCycle, state: str, colour: np.ndarray, label: str) -> None:
+def _state(axes: Axes, cycle: FlightCycle, state: str, colour: FloatArray, label: str) -> None:
     scale = 1.0 if _STATES[state] == "m/s" else np.degrees(1.0)
     values = cycle.beat.states[:, cycle.state_names.index(state)]
     shown = label if state == next(iter(_STATES)) else None
