@@ -42,8 +42,9 @@ from .studies import (
 )
 from .studies.branch import bird_branch
 from .studies.scaling import ScaledBird, scale_bird
+from .studies.stability_opening import stability_openings
 from .studies.sweeps import Study, SweepError, Trimming, sweep
-from .studies.tail import stability_openings, tail_study
+from .studies.tail import tail_study
 from .topology import Bird, load_bird
 from .topology.shipped import bird_names
 

@@ -7,7 +7,9 @@ from birdmb.studies.gust import gust_response
 from birdmb.studies.parameter_study import parameter_study
 from birdmb.studies.perturbed import flight_path, perturbed_flight
 from birdmb.studies.scaling import ScaledBird, scale_bird
-from birdmb.studies.tail import stability_openings, tail_study, within_rules
+from birdmb.studies.stability_opening import stability_openings
+from birdmb.studies.tail import tail_ranges, tail_study, within_limits
+from birdmb.studies.tail_price import price_of_stability
 from birdmb.studies.trim import Trim, TrimGuess, trim_flight
 from birdmb.studies.tunnel import tunnel_and_free_flight
 from birdmb.studies.validity import (
@@ -35,10 +37,12 @@ __all__ = [
     "gust_response",
     "parameter_study",
     "perturbed_flight",
+    "price_of_stability",
     "scale_bird",
     "stability_openings",
+    "tail_ranges",
     "tail_study",
     "trim_flight",
     "tunnel_and_free_flight",
-    "within_rules",
+    "within_limits",
 ]
