@@ -129,6 +129,14 @@ def cycle(
             metavar="N", help="Which flight of a branch to start from: 1 the first, -1 the last."
         ),
     ] = None,
+    memory: Annotated[
+        bool,
+        typer.Option(
+            "--memory",
+            help="Fly the bird once more with the other air.wake, unsteady or quasi-steady, and "
+            "say what the memory of the air changes.",
+        ),
+    ] = False,
 ) -> None:
     """Find the limit cycle of a bird, its Floquet multipliers, speed and power.
 
@@ -160,6 +168,7 @@ def cycle(
             guess=requested_guess(guess, point),
             out=out,
             as_json=json,
+            with_memory=memory,
         )
 
 

@@ -4,6 +4,7 @@ from birdmb.studies.branch import bird_branch, flight_observables
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.errors import TrimError
 from birdmb.studies.gust import gust_response
+from birdmb.studies.memory import MemoryEffect, memory_effect
 from birdmb.studies.parameter_study import parameter_study
 from birdmb.studies.perturbed import flight_path, perturbed_flight
 from birdmb.studies.scaling import ScaledBird, scale_bird
@@ -21,6 +22,7 @@ from birdmb.studies.validity import (
 )
 
 __all__ = [
+    "MemoryEffect",
     "ModelFactory",
     "Overlap",
     "ScaledBird",
@@ -35,6 +37,7 @@ __all__ = [
     "flight_observables",
     "flight_path",
     "gust_response",
+    "memory_effect",
     "parameter_study",
     "perturbed_flight",
     "price_of_stability",

@@ -81,7 +81,8 @@ class ValidityViolation:
         if self.quantity == "reduced frequency":
             return (
                 f"The reduced frequency is {self.value:.3g}, beyond {self.limit:.3g}; locally it "
-                f"is largest {where}. The unsteady wake, which the model leaves out, matters there."
+                f"is largest {where}. The unsteady wake, which the model leaves out, matters "
+                "there: fly it with --set air.wake=unsteady, or see what --memory says it changes."
             )
         return (
             f"The {self.quantity} reaches {np.degrees(self.value):.1f} deg, beyond "
@@ -242,7 +243,7 @@ def assess_validity(
     excesses: list[ValidityViolation | TailViolation | Overlap] = [
         excess for of_wing in each for excess in _beyond_angle(of_wing, largest_angle)
     ]
-    if k > largest_reduced_frequency:
+    if k > largest_reduced_frequency and not model.wake.count:
         local = data["reduced_frequency"].values
         beyond = local > largest_reduced_frequency
         where = np.where(data["judged"], local, 0.0)
