@@ -41,6 +41,7 @@ from .studies import (
     tunnel_and_free_flight,
 )
 from .studies.branch import bird_branch
+from .studies.moving_wing import MovingWingLoads, PlaneWing, WingMotion, moving_wing_loads
 from .studies.scaling import ScaledBird, scale_bird
 from .studies.sweeps import Study, SweepError, Trimming, sweep
 from .studies.tail import stability_openings, tail_study
@@ -64,9 +65,11 @@ __all__ = [
     "KinematicsFit",
     "LimitCycle",
     "Loads",
+    "MovingWingLoads",
     "MultibodyModel",
     "OdeModel",
     "OrbitError",
+    "PlaneWing",
     "RigidModel",
     "ScaledBird",
     "StateError",
@@ -78,6 +81,7 @@ __all__ = [
     "TrimError",
     "Trimming",
     "Validity",
+    "WingMotion",
     "assess_validity",
     "bird_branch",
     "bird_from_morphology",
@@ -92,6 +96,7 @@ __all__ = [
     "load_bird",
     "load_branch",
     "mode_disturbance",
+    "moving_wing_loads",
     "parameter_study",
     "perturbed_flight",
     "perturbed_response",
