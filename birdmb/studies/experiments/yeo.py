@@ -1,6 +1,6 @@
 """Lift of a rigid wing that flaps in a wind tunnel.
 
-D. Yeo, E. M. Atkins and W. Shyy, AIAA 2011: lift of both wings from nine pressure traces, which were
+D. Yeo, E. M. Atkins and W. Shyy, AIAA 2011: lift of both wings from nine pressure traces,
 digitised, and the flap angle as they fitted it. They give the speed as 2.9 and as 2.8 m/s.
 """
 
