@@ -28,7 +28,7 @@ from birdmb.cli.options import (
     Topology,
     number,
 )
-from birdmb.cli.outcome import reported
+from birdmb.cli.outcome import InputError, reported
 from birdmb.cli.study_commands import commands as study_commands
 
 _LARGEST = 1e15  # of all numbers in a topology file
@@ -320,11 +320,32 @@ def schema(
 
 @app.command(
     epilog="Exit status: 0; 2 wrong option; 130 interrupted. Takes a minute or two.\n\n"
-    "Example: birdmb validate"
+    "Examples:\n\nbirdmb validate\n\nbirdmb validate --experiments --case A"
 )
-def validate() -> None:
+def validate(
+    experiments: Annotated[
+        bool,
+        typer.Option(
+            "--experiments",
+            help="Experiments, exact solutions and other authors' computations instead, with "
+            "quasi-steady and unsteady air (docs/validation.md).",
+        ),
+    ] = False,
+    case: Annotated[
+        str | None, typer.Option(metavar="LETTER", help="This experiment only, such as A.")
+    ] = None,
+    json: Json = False,
+) -> None:
     """Print what the thesis published against what is computed here, with the command behind it."""
-    with reported(as_json=False):
+    with reported(as_json=json):
+        if experiments:
+            from birdmb.cli.experiments import run as run_experiments  # noqa: PLC0415 - slow
+
+            run_experiments(case, as_json=json)
+            return
+        if case is not None:
+            raise InputError("--case chooses an experiment; give --experiments with it.")
+
         from birdmb.cli.validate import run  # noqa: PLC0415 - slow to import
 
         run()

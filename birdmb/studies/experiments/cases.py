@@ -5,12 +5,19 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from birdmb.errors import ArgumentError
-from birdmb.studies.experiments import derivatives, scherer, section, sprung_plate, yeo
+from birdmb.studies.experiments import (
+    derivatives,
+    jackdaw,
+    scherer,
+    section,
+    sprung_plate,
+    yeo,
+)
 from birdmb.studies.experiments.comparison import Experiment
 
 EXPERIMENTS: Mapping[str, Experiment] = {
     module.EXPERIMENT.case: module.EXPERIMENT
-    for module in (scherer, yeo, section, sprung_plate, derivatives)
+    for module in (scherer, yeo, section, sprung_plate, derivatives, jackdaw)
 }
 
 

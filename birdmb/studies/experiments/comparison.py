@@ -40,6 +40,7 @@ class Comparison:
         measured: the number from elsewhere; 0 where the quantity is an error.
         computed: the same by this program, by name of the model (keys of `CHOICES`).
         others: the same by other authors' models, by name.
+        failure: why a model computed nothing.
     """
 
     case: str
@@ -48,12 +49,19 @@ class Comparison:
     measured: float
     computed: Mapping[str, float]
     others: Mapping[str, float] = field(default_factory=dict)
+    failure: str = ""
 
     def as_object(self) -> dict[str, object]:
         """Object for other programs; null for what was not computed."""
-        named = {"case": self.case, "quantity": self.quantity, "unit": self.unit}
-        models = {name: self.computed.get(name) for name in CHOICES}
-        return {**named, "measured": self.measured, **models, "others": dict(self.others)}
+        return {
+            "case": self.case,
+            "quantity": self.quantity,
+            "unit": self.unit,
+            "measured": self.measured,
+            **{name: self.computed.get(name) for name in CHOICES},
+            "others": dict(self.others),
+            "failure": self.failure,
+        }
 
 
 @dataclass(frozen=True)

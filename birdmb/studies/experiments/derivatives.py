@@ -22,6 +22,7 @@ from birdmb.aerodynamics.unsteady_loads import side_flow, side_wrenches
 from birdmb.aerodynamics.wake_lags import wake_lags
 from birdmb.studies.experiments.comparison import QUASI_STEADY, UNSTEADY, Comparison, Experiment
 from birdmb.studies.moving_wing.plane_wing import PlaneWing, lifting_line
+from birdmb.wing.shape import WingShape
 
 Wrench = Callable[[FloatArray], FloatArray]
 
@@ -38,16 +39,16 @@ AVL = {
 AVL_SECTION_LIFT = (
     0.2618, 0.2646, 0.2661, 0.2664, 0.2654, 0.2628, 0.2584, 0.2513, 0.2404, 0.2233, 0.1952, 0.1434,
 )  # fmt: skip
-_ELEMENTS, _LAG_POINTS = 48, 8
+_LAG_POINTS = 8
 _STEP = 1e-4
 _MIRROR = np.diag([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
-_LINE = lifting_line(WING, _ELEMENTS, MOMENTS_AT / WING.chords[0])
+LINE = lifting_line(WING, 48, MOMENTS_AT / WING.chords[0])
 _NO_DIRECTIONS = np.empty(0, np.int64)
 
 
-def quasi_steady_wrench() -> Wrench:
-    """Wrench by twist (6,) of the wing with the wind at its quarter chords; air of density 1."""
-    placed = place_elements(_LINE, np.zeros(3))
+def quasi_steady_wrench(line: WingShape) -> Wrench:
+    """Wrench by twist (6,) of a wing with the wind at its quarter chords; air of density 1."""
+    placed = place_elements(line, np.zeros(3))
 
     def wrench(twist: FloatArray) -> FloatArray:
         both = pair_loads(placed, placed, False, 1.0, 0.0, twist)
@@ -57,20 +58,20 @@ def quasi_steady_wrench() -> Wrench:
     return wrench
 
 
-def settled_wrench() -> Wrench:
-    """Wrench by twist (6,) of the wing whose lags have settled; air of density 1."""
-    placed = place_elements(_LINE, np.zeros(3))
-    lags = wake_lags(_ELEMENTS, _LAG_POINTS)
+def settled_wrench(line: WingShape) -> Wrench:
+    """Wrench by twist (6,) of a wing whose lags have settled; air of density 1."""
+    placed, count = place_elements(line, np.zeros(3)), len(line.chord)
+    lags = wake_lags(count, _LAG_POINTS)
     pair = pair_system(placed, placed, False)
     system = lag_system(placed, placed, pair.induced_y, pair.induced_z, lags)
-    still = section_motion(_LINE, _LINE, _LINE, 1.0)
+    still = section_motion(line, line, line, 1.0)
     air = apparent_inertia(placed, 1.0)
     of_right = inertia_matrix(placed, air, body_twists(placed, np.arange(6)))
     inertia = of_right + _MIRROR @ of_right @ _MIRROR
 
     def wrench(twist: FloatArray) -> FloatArray:
         sides = [
-            side_flow(placed, _LINE.velocity, still, air, twist, _NO_DIRECTIONS, is_left)
+            side_flow(placed, line.velocity, still, air, twist, _NO_DIRECTIONS, is_left)
             for is_left in (False, True)
         ]
         driving = np.concatenate([side.driving for side in sides])
@@ -83,7 +84,7 @@ def settled_wrench() -> Wrench:
         right, left = (
             wing_wrench(
                 placed.position,
-                side_wrenches(placed, side, unsteady, y, z, i * _ELEMENTS, 1.0, 0.0),
+                side_wrenches(placed, side, unsteady, y, z, i * count, 1.0, 0.0),
             )
             for i, side in enumerate(sides)
         )
@@ -118,7 +119,7 @@ def derivatives(wrench: Wrench) -> dict[str, float]:
 
 def section_lift() -> FloatArray:
     """Lift coefficients (12,) of the sections at the middle of AVL's strips."""
-    placed = place_elements(_LINE, np.zeros(3))
+    placed = place_elements(LINE, np.zeros(3))
     twist = np.array([np.cos(ALPHA), 0.0, np.sin(ALPHA), 0.0, 0.0, 0.0])
     right, _ = pair_loads(placed, placed, True, 1.0, 0.0, twist)
     strips = 0.5 * WING.span * (np.arange(len(AVL_SECTION_LIFT)) + 0.5) / len(AVL_SECTION_LIFT)
@@ -128,8 +129,8 @@ def section_lift() -> FloatArray:
 
 def _compare() -> Iterator[Comparison]:
     found = {
-        QUASI_STEADY: derivatives(quasi_steady_wrench()),
-        UNSTEADY: derivatives(settled_wrench()),
+        QUASI_STEADY: derivatives(quasi_steady_wrench(LINE)),
+        UNSTEADY: derivatives(settled_wrench(LINE)),
     }
     for name, value in AVL.items():
         yield Comparison("E", name, "", value, {model: of[name] for model, of in found.items()})
