@@ -26,7 +26,7 @@ def compared(case):
 
 
 def test_scherers_wing():
-    """Mean absolute error of the thrust: below the 0.046 of the paper's unsteady lifting line, nothing fitted."""
+    """Mean absolute error of the thrust: below that of the paper's unsteady lifting line, 0.046."""
     *markers, errors = compared("A")
     assert len(markers) == len(scherer.MARKERS)
     assert errors.computed[UNSTEADY] < 0.046
