@@ -71,6 +71,24 @@ def inertia_matrix(elements: Elements, air: ApparentInertia, twists: FloatArray)
 
 
 @kernel
+def inertia_wrenches(
+    elements: Elements, air: ApparentInertia, accelerations: FloatArray
+) -> FloatArray:
+    """Forces (N) and moments (N m) at the control points, (N, 6), that resist accelerations.
+
+    `accelerations` (N, 6) m/s2 and rad/s2 are those of the control points, and of the turning.
+    """
+    loads = np.zeros(accelerations.shape)
+    for e in range(elements.chord.size):
+        span = elements.span_direction[e]
+        normal = np.sum(air.direction[e] * accelerations[e])
+        turning = np.sum(span * accelerations[e, 3:])
+        loads[e] = -air.mass[e] * normal * air.direction[e]
+        loads[e, 3:] -= air.moment[e] * turning * span
+    return loads
+
+
+@kernel
 def body_twists(elements: Elements, directions: IntArray) -> FloatArray:
     """Twists (d, N, 6) of the control points per component of the body's twist, some of six."""
     n = elements.chord.size

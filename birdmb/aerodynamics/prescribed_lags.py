@@ -52,9 +52,22 @@ class NearbyShapes(NamedTuple):
     step: float  # s
 
 
-def no_lags(elements: int) -> LagTable:
+def no_lags(lags: WakeLags) -> LagTable:
     """The table of a wing whose air has no memory: of no phase."""
-    return _empty(0, elements, 0, WakeLags(np.empty(0, np.int64), np.empty((elements, 0))))
+    return _empty(0, lags.spread.shape[0], 1, lags)
+
+
+def every_second_lag(table: LagTable) -> LagTable:
+    """The table of every second phase, the first included."""
+    return LagTable(
+        LagSystem(*(array[::2].copy() for array in table.system)),
+        table.induced_y[::2].copy(),
+        table.induced_z[::2].copy(),
+        SectionMotion(*(array[::2].copy() for array in table.right)),
+        SectionMotion(*(array[::2].copy() for array in table.left)),
+        table.inertia[::2].copy(),
+        table.lags,
+    )
 
 
 @kernel

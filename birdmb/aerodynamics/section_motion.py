@@ -12,6 +12,7 @@ import numpy as np
 
 from birdmb._kernels import kernel
 from birdmb._typing import FloatArray
+from birdmb.aerodynamics.elements import Elements
 from birdmb.wing.shape import WingShape
 
 
@@ -61,3 +62,64 @@ def section_motion(
         per_second * (after.normal - before.normal),
         per_second * (after.span_direction - before.span_direction),
     )
+
+
+@kernel
+def turned_sections(
+    motion: SectionMotion,
+    elements: Elements,
+    root: FloatArray,
+    axes: FloatArray,
+    spin: FloatArray,
+    change: FloatArray,
+) -> SectionMotion:
+    """Motion relative to the body of sections whose own axes turn about the shoulder.
+
+    `motion` is that relative to these axes, (3, 3) in body axes, which turn at `spin` (3,) rad/s
+    that changes at `change` (3,) rad/s2; `elements` are placed in body axes, `root` (3,) m is the
+    shoulder.
+    """
+    n, turn = elements.chord.size, np.ascontiguousarray(axes.T)
+    rear, middle = motion.rear_velocity @ turn, motion.middle_velocity @ turn
+    acceleration = motion.middle_acceleration @ turn
+    normal_rate, span_rate = motion.normal_rate @ turn, motion.span_rate @ turn
+    pitch_rate, pitch_acceleration = motion.pitch_rate.copy(), motion.pitch_acceleration.copy()
+    at, moves, again = np.empty(3), np.empty(3), np.empty(3)
+    for e in range(n):
+        quarter, span = 0.25 * elements.chord[e], elements.span_direction[e]
+        for i in range(3):
+            pitch_rate[e] += span[i] * spin[i]
+            pitch_acceleration[e] += span_rate[e, i] * spin[i] + span[i] * change[i]
+            at[i] = elements.position[e, i] - root[i] + quarter * elements.chord_direction[e, i]
+        _cross(spin, middle[e], moves)
+        acceleration[e] += 2.0 * moves
+        _cross(change, at, moves)
+        acceleration[e] += moves
+        _cross(spin, at, moves)
+        middle[e] += moves
+        _cross(spin, moves, again)
+        acceleration[e] += again
+        for i in range(3):
+            at[i] += quarter * elements.chord_direction[e, i]
+        _cross(spin, at, moves)
+        rear[e] += moves
+        _cross(spin, elements.normal[e], moves)
+        normal_rate[e] += moves
+        _cross(spin, span, moves)
+        span_rate[e] += moves
+    return SectionMotion(
+        rear,
+        middle,
+        acceleration,
+        pitch_rate,
+        pitch_acceleration,
+        normal_rate,
+        span_rate,
+    )
+
+
+@kernel
+def _cross(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
+    out[0] = a[1] * b[2] - a[2] * b[1]
+    out[1] = a[2] * b[0] - a[0] * b[2]
+    out[2] = a[0] * b[1] - a[1] * b[0]

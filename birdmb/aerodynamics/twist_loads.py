@@ -176,6 +176,24 @@ def element_wrenches(
 
 
 @kernel
+def profile_drag(
+    elements: Elements, velocity: FloatArray, twist: FloatArray, density: float, coefficient: float
+) -> FloatArray:
+    """Profile drag (N, 3) N of the elements of one wing, as `element_wrenches` counts it.
+
+    They move at `velocity` (N, 3) m/s relative to a body with a `twist` (6,).
+    """
+    flow = wing_flow(elements, velocity, twist, np.empty(0, np.int64))
+    drag = np.empty((elements.chord.size, 3))
+    for e in range(elements.chord.size):
+        wind = flow.wind[e, :, 0]
+        speed = np.sqrt(np.sum(wind * wind))
+        scale = 0.5 * density * coefficient * elements.chord[e] * elements.width[e]
+        drag[e] = scale * speed * wind
+    return drag
+
+
+@kernel
 def wing_wrench(position: FloatArray, loads: FloatArray) -> FloatArray:
     """Wrench (6, 1 + d) about G of `loads` (N, 6, 1 + d) at `position` (N, 3) m of one wing."""
     n, _, columns = loads.shape

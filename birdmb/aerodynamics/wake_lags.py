@@ -51,11 +51,11 @@ class WakeLags(NamedTuple):
 def wake_lags(elements: int, points: int) -> WakeLags:
     """Lags at so many `points` of a wing of N `elements`, at all of them at most.
 
-    They crowd towards root and tip, and a cubic spline leads through them along the elements, which
-    do so as well.
+    They are spread evenly along the elements, which crowd towards root and tip, and lie within
+    their range: at a pointed tip, where nothing lifts, lags would be boundlessly fast. A cubic
+    spline leads through them.
     """
-    share = 0.5 * (1.0 - np.cos(np.pi * np.arange(points) / max(points - 1, 1)))
-    kept = np.unique(np.rint(share * (elements - 1)).astype(np.int64))
+    kept = np.unique(((np.arange(points) + 0.5) / points * elements).astype(np.int64))
     if kept.size < 4:
         raise ValueError("fewer than four points leave no cubic spline")
     spline = CubicSpline(kept, np.eye(kept.size), bc_type="not-a-knot")

@@ -12,11 +12,14 @@ import numpy as np
 from birdmb._typing import FloatArray
 from birdmb.aerodynamics.prescribed import driver_motion_along
 from birdmb.models.failures import lifting_line_lost
+from birdmb.models.unsteady_kernel import NearShapes
 from birdmb.topology import Bird
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.stacked import StackedShapes, wing_shapes
 
 _INSTANTS_KEPT = 8192
+# Of a beat: differences over it err by 1e-8, and round-off by 1e-10.
+NEARBY = 3e-5
 
 
 class StackedInstants(NamedTuple):
@@ -25,7 +28,7 @@ class StackedInstants(NamedTuple):
     angles: FloatArray  # (P, A) rad, of the drivers
     rates: FloatArray  # (P, A) rad/s
     accelerations: FloatArray  # (P, A) rad/s2
-    shapes: StackedShapes | None  # with the joints at zero that turn the wing, if known
+    shapes: NearShapes | None  # with the joints at zero that turn the wing, if known
 
 
 @dataclass
@@ -79,27 +82,46 @@ class Instants:
         self._shaping = tuple(shaping)
         parts = (np.asarray(part) for part in wing)
         how = rigid_joint_count, self._shaping, discretisation
-        self._kept = _kept((how, *((p.shape, p.tobytes()) for p in parts)))
+        self._kept = _kept(
+            (how, bird.air.wake, bird.period, *((p.shape, p.tobytes()) for p in parts))
+        )
 
     def stacked(self, times: FloatArray) -> StackedInstants:
         """What `times` (P,) s determine; raises `StateError` if no lifting line fits the wing."""
         found = self._kept.stacks.get(times.tobytes())
         if found is None:
             angles, rates, accelerations = driver_motion_along(self._wing, times)
-            shapes = None if self._shaping else self.shapes(times, angles, rates)
+            shapes = None if self._shaping else self.shapes(times, angles, rates, accelerations)
             found = self._kept.keep(times, StackedInstants(angles, rates, accelerations, shapes))
         return found
 
-    def shapes(self, times: FloatArray, angles: FloatArray, rates: FloatArray) -> StackedShapes:
+    def shapes(
+        self, times: FloatArray, angles: FloatArray, rates: FloatArray, accelerations: FloatArray
+    ) -> NearShapes:
         """The wing at `times` (P,) s, `angles` and `rates` (P, A), the joints that turn it at zero.
 
+        Where the air remembers, with its shapes a short time before and after, moved at these rates
+        and at the `accelerations` (P, A) of those joints that follow drivers.
         Raises `StateError` if no lifting line fits it.
         """
         moving = np.arange(angles.shape[1]) >= self._rigid_joint_count
+        angles, rates = moving * angles, moving * rates
+        now = self._shapes(times, angles, rates)
+        if self._bird.air.wake == "quasi-steady":
+            return NearShapes(now, now, now, 1.0)
+        driven = moving.copy()
+        driven[list(self._shaping)] = False
+        step = NEARBY * self._bird.period
+        before, after = (
+            self._shapes(times, angles + ahead * rates, rates + ahead * driven * accelerations)
+            for ahead in (-step, step)
+        )
+        return NearShapes(now, before, after, step)
+
+    def _shapes(self, times: FloatArray, angles: FloatArray, rates: FloatArray) -> StackedShapes:
         hinges = self._wing.segment.size
         singly = [joint for joint in self._shaping if joint < hinges]
-        how = self._discretisation
-        shapes = wing_shapes(self._wing, moving * angles, moving * rates, *how, singly)
+        shapes = wing_shapes(self._wing, angles, rates, *self._discretisation, singly)
         if not shapes.converged.all():
             k = int(np.argmin(shapes.converged))
             raise lifting_line_lost(self._bird, float(times[k]), angles[k])

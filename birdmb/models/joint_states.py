@@ -51,14 +51,19 @@ class JointStates:
         """Typical sizes of the states."""
         return _SCALE * self.count
 
+    @property
+    def states(self) -> slice:
+        """Where the states stand."""
+        return slice(self.first, self.first + 2 * self.count)
+
     def put(self, states: FloatArray, angles: FloatArray, rates: FloatArray) -> None:
         """Overwrite what is compliant of angles and rates (K, 2, A) by the states (K, n)."""
-        own = states[:, self.first :].reshape(len(states), self.sides, -1, 2)
+        own = states[:, self.states].reshape(len(states), self.sides, -1, 2)
         angles[:, :, self.compliant] = own[..., 0]
         rates[:, :, self.compliant] = own[..., 1]
 
     def taken(self, angles: FloatArray, rates: FloatArray) -> FloatArray:
-        """The states (K, n - first) of angles and rates (K, 2, A)."""
+        """The states (K, 2 C) of angles and rates (K, 2, A)."""
         moving = np.stack([angles, rates], axis=-1)[:, : self.sides, self.compliant]
         return np.asarray(moving.reshape(len(angles), 2 * self.count))
 
@@ -68,6 +73,6 @@ class JointStates:
 
     @property
     def mirrored(self) -> IntArray:
-        """Positions (n - first,) of the states that take each one's place in the mirror image."""
+        """Positions (2 C,) of the states that take each one's place in the mirror image."""
         order = np.arange(self.first, self.first + 2 * self.count)
         return np.roll(order, self.count) if self.sides == len(SIDES) else order

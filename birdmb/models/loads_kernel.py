@@ -7,16 +7,20 @@ from typing import NamedTuple
 import numpy as np
 
 from birdmb._kernels import kernel
-from birdmb._typing import FloatArray, IntArray
+from birdmb._typing import FloatArray
 from birdmb.aerodynamics.airframe import AeroConstants, body_loads, tail_wind
+from birdmb.aerodynamics.apparent_mass import apparent_inertia, body_twists, inertia_wrenches
 from birdmb.aerodynamics.elements import clearance
 from birdmb.aerodynamics.joints import torques
-from birdmb.aerodynamics.pair import ElementLoads, pair_loads, pair_wrench
+from birdmb.aerodynamics.pair import ElementLoads, pair_loads, pair_system, pair_wrench
 from birdmb.aerodynamics.tail import tail_angle, tail_force, tail_influence
-from birdmb.aerodynamics.twist_loads import wing_wrench
+from birdmb.aerodynamics.twist_loads import mirrored, profile_drag, wing_wrench
+from birdmb.aerodynamics.wake_lags import WakeLags
+from birdmb.models.air_kernel import Shapes
 from birdmb.models.placed_wing import PlacedWing, place_wing
+from birdmb.models.unsteady_kernel import unsteady_rows
 from birdmb.wing.arrays import JointArrays
-from birdmb.wing.stacked import StackedShapes, shape_at
+from birdmb.wing.stacked import shape_at
 
 
 class StackedWing(NamedTuple):
@@ -55,6 +59,17 @@ class StackedLoads(NamedTuple):
     left: StackedWing
 
 
+class Memory(NamedTuple):
+    """What air that remembers adds at K instants; nothing where no lags are kept."""
+
+    lags: WakeLags
+    sides: int  # 1 where the lags of the right wing tell of both, else 2
+    states: FloatArray  # (K, L)
+    of_body: FloatArray  # (K, 6) m/s2 and rad/s2, acceleration in space in body axes
+    free: FloatArray  # (K, 2, A) rad/s2, of joints and hinges that follow no driver
+    driven: FloatArray  # (K, 2, A) rad/s2, of those that do
+
+
 @kernel
 def _no_wing(count: int, n: int, joints: int) -> StackedWing:
     return StackedWing(
@@ -78,22 +93,21 @@ def _no_wing(count: int, n: int, joints: int) -> StackedWing:
 @kernel
 def loads_along(
     joints: JointArrays,
-    shapes: tuple[StackedShapes, StackedShapes],
-    shape_of: IntArray,
+    shapes: Shapes,
     rigid_joint_count: int,
     aero: AeroConstants,
     angles: FloatArray,
     rates: FloatArray,
     twists: FloatArray,
+    memory: Memory,
 ) -> StackedLoads:
     """Loads at K instants; NaN where a wing is across the plane of symmetry.
 
-    Of the right and the left wing `shape_of` (2, K) tells which of its stacked `shapes` belongs to
-    an instant, with the first `rigid_joint_count` joints at zero; `angles` and `rates` (K, 2, A)
+    The first `rigid_joint_count` joints of the `shapes` are at zero; `angles` and `rates` (K, 2, A)
     are those of joints and hinges, `twists` (K, 6) m/s and rad/s the body's relative to the air.
     """
     count, _, angle_count = angles.shape
-    n = shapes[0].chord.shape[1]
+    n = shapes.stacks[0].now.chord.shape[1]
     stack = StackedLoads(
         np.full((count, 3), np.nan),
         np.full((count, 3), np.nan),
@@ -110,7 +124,7 @@ def loads_along(
         twist = twists[k]
         right = place_wing(
             joints,
-            shape_at(shapes[0], shape_of[0, k]),
+            shape_at(shapes.stacks[0].now, shapes.of[0, k]),
             rigid_joint_count,
             angles[k, 0],
             rates[k, 0],
@@ -118,16 +132,22 @@ def loads_along(
         left = right
         alike = np.all(angles[k, 0] == angles[k, 1]) and np.all(rates[k, 0] == rates[k, 1])
         if not alike:
-            shape = shape_at(shapes[1], shape_of[1, k])
+            shape = shape_at(shapes.stacks[1].now, shapes.of[1, k])
             left = place_wing(joints, shape, rigid_joint_count, angles[k, 1], rates[k, 1])
         _keep_wing(stack.right, k, right, rates[k, 0])
         _keep_wing(stack.left, k, left, rates[k, 1])
         if not (stack.right.clearance[k] >= 0.0 and stack.left.clearance[k] >= 0.0):
             continue
         is_mirrored = bool(alike and twist[1] == 0.0 and twist[3] == 0.0 and twist[5] == 0.0)
-        of_right, of_left = pair_loads(
-            right.elements, left.elements, is_mirrored, aero.density, aero.profile_drag, twist
-        )
+        if memory.lags.kept.size > 0:
+            of_right, of_left, trailing = _remembered(
+                joints, rigid_joint_count, aero, (right, left), shapes, k, twist, rates[k], memory
+            )
+        else:
+            of_right, of_left = pair_loads(
+                right.elements, left.elements, is_mirrored, aero.density, aero.profile_drag, twist
+            )
+            trailing = np.concatenate((of_right.circulation, of_left.circulation))
         _keep_loads(stack.right, k, of_right, torques(right.twist_per_rate, of_right.wrench))
         _keep_loads(stack.left, k, of_left, torques(left.twist_per_rate, of_left.wrench))
         of_body = body_loads(aero, twist[:3])[:, 0]
@@ -135,8 +155,8 @@ def loads_along(
         if tail.span > 0.0:
             # In the plane of symmetry each wing induces half of what a pair of them would.
             induced = 0.5 * (
-                tail_influence(tail, right.elements.node) @ of_right.circulation
-                + tail_influence(tail, left.elements.node) @ of_left.circulation
+                tail_influence(tail, right.elements.node) @ trailing[:n]
+                + tail_influence(tail, left.elements.node) @ trailing[n:]
             )
             wind = tail_wind(tail, induced, twist)
             stack.tail_force[k] = tail_force(tail, aero.density, wind)[:, 0]
@@ -153,6 +173,83 @@ def loads_along(
         stack.moment[k, 1] += tail.z * fx - tail.x * fz
         stack.moment[k, 2] += tail.x * fy
     return stack
+
+
+@kernel
+def _remembered(
+    joints: JointArrays,
+    rigid_joint_count: int,
+    aero: AeroConstants,
+    placed: tuple[PlacedWing, PlacedWing],
+    shapes: Shapes,
+    k: int,
+    twist: FloatArray,
+    rates: FloatArray,
+    memory: Memory,
+) -> tuple[ElementLoads, ElementLoads, FloatArray]:
+    """Loads of both wings at the k-th instant, and the trailing circulations (2 N,) m2/s."""
+    right, left = placed
+    n = right.elements.chord.size
+    influence = pair_system(right.elements, left.elements, memory.sides == 1)
+    found = unsteady_rows(
+        joints,
+        rigid_joint_count,
+        aero,
+        memory.lags,
+        placed,
+        influence,
+        shapes.stacks,
+        shapes.of[:, k : k + 1],
+        twist.reshape(1, 6),
+        rates.reshape(1, 2, -1),
+        memory.driven[k : k + 1],
+        memory.states[k : k + 1],
+    )
+    wrenches, m = found.wrenches[0], influence.matrix.shape[0]
+    drag = np.empty((2, n, 3))
+    both = np.empty((2, n, 6))
+    for side in range(2):
+        elements = placed[side].elements
+        first = side * (m - n)
+        both[side] = wrenches[first : first + n]
+        of_body = memory.of_body[k] if side == 0 else mirrored(memory.of_body[k])
+        both[side] += inertia_wrenches(
+            elements,
+            apparent_inertia(elements, aero.density),
+            _accelerations(placed[side], of_body, memory.free[k, side]),
+        )
+        through_air = twist if side == 0 else mirrored(twist)
+        velocity = found.velocity[0, first : first + n]
+        drag[side] = profile_drag(elements, velocity, through_air, aero.density, aero.profile_drag)
+    return (
+        ElementLoads(
+            found.circulation[0, :n].copy(),
+            found.angle_of_attack[0, :n].copy(),
+            found.speed[0, :n].copy(),
+            both[0].copy(),
+            drag[0].copy(),
+        ),
+        ElementLoads(
+            found.circulation[0, m - n :].copy(),
+            found.angle_of_attack[0, m - n :].copy(),
+            found.speed[0, m - n :].copy(),
+            both[1].copy(),
+            drag[1].copy(),
+        ),
+        np.concatenate((found.trailing[0, :n], found.trailing[0, m - n :])),
+    )
+
+
+@kernel
+def _accelerations(placed: PlacedWing, of_body: FloatArray, free: FloatArray) -> FloatArray:
+    """Accelerations (N, 6) of the control points and of the sections' turning."""
+    twists = body_twists(placed.elements, np.arange(6))
+    total = np.zeros((placed.elements.chord.size, 6))
+    for b in range(6):
+        total += of_body[b] * twists[b]
+    for a in range(free.size):
+        total += free[a] * placed.twist_per_rate[a]
+    return total
 
 
 @kernel

@@ -72,7 +72,8 @@ class MultibodyModel(TreeModel):
             return start
         held = self._held_like(start)
         joints = self.joint_states.spread(held.initial_guess(), held.joint_states.sides)
-        return np.concatenate([start[: self.joint_states.first], joints])
+        motion = np.concatenate([start[: self.joint_states.first], joints])
+        return self.with_lags(np.zeros(1), motion[None])[0]
 
     def starting_paths(self, times: FloatArray) -> Iterator[FloatArray]:
         """Paths (K, n) at `times` (K,) s to look for flights from, the guess first.
@@ -89,8 +90,8 @@ class MultibodyModel(TreeModel):
             for body in paths(times):
                 swinging = self._joints_held(body, times)
                 if swinging is not None:
-                    yield np.hstack([body, swinging])
-                yield np.hstack([body, guess[:, self.joint_states.first :]])
+                    yield self.with_lags(times, np.hstack([body, swinging]))
+                yield self.with_lags(times, np.hstack([body, guess[:, self.joint_states.states]]))
 
     def _rigid(self, times: FloatArray) -> FloatArray:
         """Paths (S, K, m) of the body along the flights of the rigid bird."""
@@ -121,11 +122,12 @@ class MultibodyModel(TreeModel):
         return self.joint_states.spread(states, held.joint_states.sides)
 
     def _held_like(self, body: FloatArray) -> MultibodyModel:
-        """The same bird held as a state (n,) has its body, but for its turning.
+        """The same bird held as a state (n,) has its body, but for its turning, in still air.
 
-        In a symmetric motion it has states for both wings together, else for each.
+        In a symmetric motion it has states for both wings together, else for each. The air has no
+        memory.
         """
         space = self.motion.in_space(body[None, : self.joint_states.first])[0]
         space[3:6] = 0.0
         options: dict[str, Any] = {**self._options(), "motion": "held", "body_state": space}
-        return type(self)(self.bird, **options)
+        return type(self)(self.bird.with_values({"air.wake": "quasi-steady"}), **options)

@@ -56,3 +56,19 @@ def spin_of(chain: Chain, rigid_joint_count: int, rates: FloatArray) -> FloatArr
     for j in range(rigid_joint_count):
         spin += rates[j] * chain.axis[j]
     return spin
+
+
+@kernel
+def spin_change(
+    chain: Chain, rigid_joint_count: int, rates: FloatArray, accelerations: FloatArray
+) -> FloatArray:
+    """Rate of change (3,) rad/s2 of `spin_of`, at these accelerations (A,) rad/s2 of the joints."""
+    spin, change = np.zeros(3), np.zeros(3)
+    for j in range(rigid_joint_count):
+        x, y, z = chain.axis[j, 0], chain.axis[j, 1], chain.axis[j, 2]
+        # The joint's axis turns with all that carries it.
+        change[0] += rates[j] * (spin[1] * z - spin[2] * y) + accelerations[j] * x
+        change[1] += rates[j] * (spin[2] * x - spin[0] * z) + accelerations[j] * y
+        change[2] += rates[j] * (spin[0] * y - spin[1] * x) + accelerations[j] * z
+        spin += rates[j] * chain.axis[j]
+    return change

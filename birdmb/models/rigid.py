@@ -14,13 +14,22 @@ from birdmb.aerodynamics.prescribed import (
     PrescribedWing,
     WakeTable,
     driver_motion,
+    driver_motion_along,
     every_second,
     no_wakes,
     odd_wakes,
     pair_wakes,
     prescribed_wing,
 )
+from birdmb.aerodynamics.prescribed_lags import (
+    LagTable,
+    NearbyShapes,
+    every_second_lag,
+    lag_table,
+    no_lags,
+)
 from birdmb.errors import StateError
+from birdmb.models.air_kernel import Shapes
 from birdmb.models.failures import (
     lifting_line_lost,
     overflow_told,
@@ -30,15 +39,18 @@ from birdmb.models.failures import (
 from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.gusts import Gust
-from birdmb.models.motion import PLANAR, Motion, MotionName, motion_named
+from birdmb.models.instants import NEARBY
+from birdmb.models.motion import PLANAR, Mirror, Motion, MotionName, motion_named
 from birdmb.models.refusals import refuse_asymmetric, require_inertia
 from birdmb.models.rigid_kernel import RigidBody, integrate_rigid, rates_along
 from birdmb.models.starts import INCIDENCES, PATH_ANGLES, SPEEDS, steady_states, steady_turns
 from birdmb.models.trim import mean_trim
+from birdmb.models.unsteady_kernel import NearShapes
+from birdmb.models.wake_states import wake_states
 from birdmb.models.wing_model import STEPS_PER_BEAT, BirdModel
-from birdmb.topology import Bird
+from birdmb.topology import SIDES, Bird
 from birdmb.wing.arrays import WingArrays
-from birdmb.wing.stacked import StackedShapes
+from birdmb.wing.stacked import StackedShapes, wing_shapes
 
 _ORDER = 4
 _TOLERANCE = 1e-6
@@ -48,11 +60,12 @@ _PHASES = 16  # enough for means over a beat, to guess from
 
 
 class RigidTable(NamedTuple):
-    """Both wings at some phases, the left one mirrored, and what motion in space needs besides."""
+    """Both wings at some phases, the left one mirrored, and what some motions and air need."""
 
     right: PrescribedWing
     left: PrescribedWing
     wakes: WakeTable
+    lags: LagTable
 
 
 def rigid_body(bird: Bird, motion: Motion) -> RigidBody:
@@ -75,7 +88,8 @@ class RigidModel(BirdModel):
     """Rigid body with massless wings; all joints follow their drivers, compliant ones too.
 
     With motion "planar" in symmetric longitudinal flight, with the states u, w, q and theta; with
-    "free" in space, with the states of `birdmb.models.motion`.
+    "free" in space, with the states of `birdmb.models.motion`. In air that remembers (`air.wake`
+    is "unsteady") the lags of its wake follow, see `birdmb.models.wake_states`.
 
     Integrated by classical Runge-Kutta steps, with exact variational equations, over a table of
     the wing at every half step. By default there are as many as keep the estimated error of a beat
@@ -96,7 +110,9 @@ class RigidModel(BirdModel):
         super().__init__(bird, steps_per_beat=steps_per_beat, gust=gust)
         self.motion = motion_named(motion)
         refuse_asymmetric(bird, self.motion)
-        self.state_names, self.state_units = self.motion.states, self.motion.units
+        self.wake = wake_states(bird, 1 if self.is_mirrored else len(SIDES))
+        self.state_names = self.motion.states + self.wake.names
+        self.state_units = self.motion.units + self.wake.units
         self._constants = (self.aero, rigid_body(bird, self.motion))
         self._phases_kept = 0
         self._tables: dict[tuple[float, float, int] | bytes, RigidTable] = {}
@@ -120,7 +136,7 @@ class RigidModel(BirdModel):
         fine = self._table(0.0, period, steps)
         right = every_second(fine.right)
         left = right if fine.left is fine.right else every_second(fine.left)
-        coarse = self._with_wakes(right, left)
+        coarse = RigidTable(right, left, self._wakes(right, left), every_second_lag(fine.lags))
         ends = [
             integrate_rigid(
                 *table, self._first_guess, period / n, np.zeros((2 * n + 1, 3)), *self._constants
@@ -132,7 +148,7 @@ class RigidModel(BirdModel):
     @property
     def state_scale(self) -> FloatArray:
         """Typical sizes of the states, (n,)."""
-        return np.array(self.motion.scale)
+        return np.array(self.motion.scale + self.wake.scale)
 
     def rhs(self, t: float, x: npt.ArrayLike) -> FloatArray:
         """Rates (n,) of the states at time t (s) in state x (n,)."""
@@ -191,7 +207,7 @@ class RigidModel(BirdModel):
 
     def initial_guess(self) -> FloatArray:
         """State (n,) in which the loads, averaged over a beat, come closest to balance."""
-        return self._first_guess.copy()
+        return self._with_lags(np.zeros(1), self._first_guess[None])[0]
 
     def guess_along(self, times: FloatArray) -> FloatArray:
         """A guess (K, n) of a limit cycle at `times` (K,) s: the initial guess, held steadily.
@@ -199,7 +215,17 @@ class RigidModel(BirdModel):
         Times that are spread evenly over a beat, and are not few, serve for the means as well.
         """
         guess = self._trim(times) if self._span_a_beat(times) else self._first_guess
-        return np.tile(guess, (times.size, 1))
+        return self._with_lags(times, np.tile(guess, (times.size, 1)))
+
+    def _with_lags(self, times: FloatArray, body: FloatArray) -> FloatArray:
+        """States (K, n) of those of the body (K, m): with the lags that its motion settles at."""
+        if not self.wake.count:
+            return body
+        own, states = body.shape[1], np.hstack([body, np.zeros((len(body), self.wake.count))])
+        table, phase = self._table_for(times)
+        rates, slopes = self._along(table, phase, times, states, slopes_wanted=True)
+        states[:, own:] = self.wake.settled(rates[:, own:], slopes[:, own:, own:])
+        return states
 
     def starting_paths(self, times: FloatArray) -> Iterator[FloatArray]:
         """Paths (K, n) at `times` (K,) s to look for flights from, the guess first.
@@ -213,7 +239,7 @@ class RigidModel(BirdModel):
         if self.motion is not PLANAR:
             found = np.vstack([found, steady_turns(found, self.bird.gravity)])
         for state in found[:, self.motion.indices]:
-            yield np.tile(state, (times.size, 1))
+            yield self._with_lags(times, np.tile(state, (times.size, 1)))
 
     def _span_a_beat(self, times: FloatArray) -> bool:
         if times.size < _PHASES:
@@ -283,21 +309,58 @@ class RigidModel(BirdModel):
 
     def _tabulated(self, times: FloatArray) -> RigidTable:
         right = self.wing_at(times)
-        return self._with_wakes(right, right if self.has_like_wings else self._left_at(times))
+        left = right if self.has_like_wings else self._left_at(times)
+        return RigidTable(right, left, self._wakes(right, left), self._lags(times, right, left))
 
-    def _with_wakes(self, right: PrescribedWing, left: PrescribedWing) -> RigidTable:
-        """The table with what asymmetric motions or wings need; symmetric flight does without."""
-        if self.motion is PLANAR:
-            return RigidTable(right, left, no_wakes())
-        if left is right:
-            return RigidTable(right, left, odd_wakes(right))
-        return RigidTable(right, left, pair_wakes(right, left))
+    def _wakes(self, right: PrescribedWing, left: PrescribedWing) -> WakeTable:
+        """What asymmetric motions or wings need; symmetric flight does without, as do lags."""
+        if self.motion is PLANAR or self.wake.count:
+            return no_wakes()
+        return odd_wakes(right) if left is right else pair_wakes(right, left)
 
-    def _shapes_along(
-        self, times: FloatArray, _angles: FloatArray, _rates: FloatArray
-    ) -> tuple[tuple[StackedShapes, StackedShapes], IntArray]:
+    def _lags(self, times: FloatArray, right: PrescribedWing, left: PrescribedWing) -> LagTable:
+        """What the lags of air that remembers need."""
+        lags = self.wake.lags
+        if not self.wake.count:
+            return no_lags(lags)
+        nearby = self._nearby(self.wing, times)
+        other = nearby if left is right else self._nearby(self.left_wing, times)
+        return lag_table(right, left, nearby, other, lags, self.is_mirrored, self.aero.density)
+
+    def _nearby(self, arrays: WingArrays, times: FloatArray) -> NearbyShapes:
+        step = NEARBY * self.bird.period
+        before, after = (self._shapes_at(arrays, near) for near in (times - step, times + step))
+        return NearbyShapes(before, after, step)
+
+    def _shapes_at(self, arrays: WingArrays, times: FloatArray) -> StackedShapes:
+        angles, rates, _ = driver_motion_along(arrays, times)
+        return wing_shapes(arrays, angles, rates, *self.discretisation)
+
+    @property
+    def mirror(self) -> Mirror:
+        """How states of the bird become those of its mirror image: the wings change sides."""
+        of_body = super().mirror
+        order = of_body.order.copy()
+        own = order.size - self.wake.count
+        order[own:] = self.wake.mirrored(own)
+        return Mirror(order, of_body.signs)
+
+    def _shapes_along(self, times: FloatArray, _angles: FloatArray, _rates: FloatArray) -> Shapes:
         table, phase = self._table_for(times)
-        return (table.right.shapes, table.left.shapes), np.stack([phase, phase])
+        distinct = np.unique(times) if phase.size else times
+        right = self._near_shapes(self.wing, distinct, table.right)
+        left = right
+        if table.left is not table.right:
+            left = self._near_shapes(self.left_wing, distinct, table.left)
+        return Shapes((right, left), np.stack([phase, phase]))
+
+    def _near_shapes(
+        self, arrays: WingArrays, times: FloatArray, wing: PrescribedWing
+    ) -> NearShapes:
+        if not self.wake.count:
+            return NearShapes(wing.shapes, wing.shapes, wing.shapes, 1.0)
+        near = self._nearby(arrays, times)
+        return NearShapes(wing.shapes, near.before, near.after, near.step)
 
     def wing_at(self, times: FloatArray) -> PrescribedWing:
         """The right wing on its drivers at `times` (P,) s.

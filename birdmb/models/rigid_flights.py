@@ -17,6 +17,8 @@ def rigid_flights(bird: Bird, times: FloatArray) -> FloatArray:
     None where it has no flight, or where the model of the rigid bird does not apply.
     """
     try:
+        # In air without a memory, which is where one with a memory leads to in steady flight.
+        bird = bird.with_values({"air.wake": "quasi-steady"})
         flights = find_limit_cycles(RigidModel(bird), accuracy=1e-3, deflations=4)
     except StateError:
         flights = []

@@ -21,6 +21,7 @@ from birdmb.aerodynamics.prescribed import (
     free_loads,
     symmetric_loads,
 )
+from birdmb.aerodynamics.prescribed_lags import LagTable, lagged_loads
 
 _PHI, _THETA, _SIZE = 6, 7, 8
 
@@ -69,6 +70,7 @@ def rigid_rates(
     wing: PrescribedWing,
     left: PrescribedWing,
     wakes: WakeTable,
+    lags: LagTable,
     k: int,
     states: FloatArray,
     air: FloatArray,
@@ -81,8 +83,9 @@ def rigid_rates(
     `air` (3,) m/s is the velocity of the air along the heading, to the right of it and down. Of the
     Jacobian the part that the air makes is left out unless `slopes_wanted`.
     """
-    x, n = np.zeros(_SIZE), states.size
-    for i in range(n):
+    own = body.states.size
+    x, count = np.zeros(_SIZE), states.size - own
+    for i in range(own):
         x[body.states[i]] = states[i]
     turn = np.empty((3, 3, 3))
     _turn(x[_PHI], x[_THETA], turn)
@@ -90,39 +93,115 @@ def rigid_rates(
     wx, wy, wz = _times(turn[0], air[0], air[1], air[2])
     twist[0], twist[1], twist[2] = twist[0] - wx, twist[1] - wy, twist[2] - wz
     directions = body.directions if slopes_wanted else body.directions[:0]
-    if body.directions.size == 6:
+    lag_rates = np.empty((0, 1))
+    if count > 0:
+        found, lag_rates = lagged_loads(
+            wing, left, lags, k, aero, twist, directions, states[own:], slopes_wanted
+        )
+    elif body.directions.size == 6:
         found = free_loads(wing, left, wakes, k, aero, twist, directions)
     else:
         found = symmetric_loads(wing, k, aero, twist, directions)
-    wrench, slopes = found[:, 0].copy(), np.zeros((6, _SIZE))
+    wrench, slopes = found[:, 0].copy(), _by_state(found, directions, turn, air, count)
+    _add_weight(body, turn, wrench, slopes)
+    _take_inertia(body, x, wrench, slopes)
+
+    rates, jacobian = np.zeros(_SIZE + count), np.zeros((_SIZE + count, _SIZE + count))
+    if count > 0:
+        _accelerate_with_air(body, lags.inertia[k], x, wrench, slopes, rates, jacobian)
+        rates[_SIZE:] = lag_rates[:, 0]
+        jacobian[_SIZE:] = _by_state(lag_rates, directions, turn, air, count)
+    else:
+        _accelerate(body, wrench, slopes, rates, jacobian)
+    _write_attitude(x, rates, jacobian)
+    which = np.concatenate((body.states, np.arange(_SIZE, _SIZE + count)))
+    own_rates, own_jacobian = np.empty(which.size), np.empty((which.size, which.size))
+    for i in range(which.size):
+        own_rates[i] = rates[which[i]]
+        for j in range(which.size):
+            own_jacobian[i, j] = jacobian[which[i], which[j]]
+    return own_rates, own_jacobian
+
+
+@kernel
+def _by_state(
+    found: FloatArray, directions: IntArray, turn: FloatArray, air: FloatArray, count: int
+) -> FloatArray:
+    """Derivatives (R, 8 + count) by the states in space and the lags.
+
+    Of values `found` (R, 1 + D) with derivatives by `directions` of the twist, then by the lags.
+    """
+    rows, given = found.shape[0], directions.size + 1
+    slopes = np.zeros((rows, _SIZE + count))
     for m in range(directions.size):
-        for i in range(6):
+        for i in range(rows):
             slopes[i, directions[m]] = found[i, m + 1]
     for a in range(2):
         # As the body turns, the air's velocity turns in its axes.
         wx, wy, wz = _times(turn[a + 1], air[0], air[1], air[2])
-        for i in range(6):
+        for i in range(rows):
             slopes[i, _PHI + a] = -slopes[i, 0] * wx - slopes[i, 1] * wy - slopes[i, 2] * wz
-    _add_weight(body, turn, wrench, slopes)
-    _take_inertia(body, x, wrench, slopes)
+    for m in range(found.shape[1] - given):
+        for i in range(rows):
+            slopes[i, _SIZE + m] = found[i, given + m]
+    return slopes
 
-    rates, jacobian = np.zeros(_SIZE), np.zeros((_SIZE, _SIZE))
+
+@kernel
+def _accelerate(
+    body: RigidBody, wrench: FloatArray, slopes: FloatArray, rates: FloatArray, jacobian: FloatArray
+) -> None:
+    """Write what a wrench (6,) changes of the velocities, with its derivatives (6, 8)."""
     for i in range(3):
         rates[i] = wrench[i] / body.mass
     rates[3], rates[4], rates[5] = _times(body.inverse, wrench[3], wrench[4], wrench[5])
-    for m in range(_SIZE):
+    for m in range(slopes.shape[1]):
         for i in range(3):
             jacobian[i, m] = slopes[i, m] / body.mass
         jacobian[3, m], jacobian[4, m], jacobian[5, m] = _times(
             body.inverse, slopes[3, m], slopes[4, m], slopes[5, m]
         )
-    _write_attitude(x, rates, jacobian)
-    own_rates, own_jacobian = np.empty(n), np.empty((n, n))
-    for i in range(n):
-        own_rates[i] = rates[body.states[i]]
-        for j in range(n):
-            own_jacobian[i, j] = jacobian[body.states[i], body.states[j]]
-    return own_rates, own_jacobian
+
+
+@kernel
+def _accelerate_with_air(
+    body: RigidBody,
+    air: FloatArray,
+    x: FloatArray,
+    wrench: FloatArray,
+    slopes: FloatArray,
+    rates: FloatArray,
+    jacobian: FloatArray,
+) -> None:
+    """As `_accelerate`, of a body that has to accelerate `air` (6, 6) with it.
+
+    Apparent mass resists acceleration in space, of which turning axes hold omega x V.
+    """
+    u, v, w, p, q, r = x[:6]
+    turning, by_state = np.empty(3), np.zeros((3, slopes.shape[1]))
+    turning[0], turning[1], turning[2] = q * w - r * v, r * u - p * w, p * v - q * u
+    by_state[0, 1], by_state[0, 2], by_state[0, 4], by_state[0, 5] = -r, q, w, -v
+    by_state[1, 0], by_state[1, 2], by_state[1, 3], by_state[1, 5] = r, -p, -w, u
+    by_state[2, 0], by_state[2, 1], by_state[2, 3], by_state[2, 4] = -q, p, v, -u
+    moving = body.directions
+    size = moving.size
+    mass, right = np.zeros((size, size)), np.empty((size, 1 + slopes.shape[1]))
+    for a in range(size):
+        i = moving[a]
+        right[a, 0], right[a, 1:] = wrench[i], slopes[i]
+        for m in range(3):
+            right[a, 0] -= air[i, m] * turning[m]
+            right[a, 1:] -= air[i, m] * by_state[m]
+        for b in range(size):
+            j = moving[b]
+            mass[a, b] = air[i, j]
+            if i >= 3 and j >= 3:
+                mass[a, b] += body.inertia[i - 3, j - 3]
+        if i < 3:
+            mass[a, a] += body.mass
+    found = np.linalg.solve(mass, right)
+    for a in range(size):
+        rates[moving[a]], jacobian[moving[a]] = found[a, 0], found[a, 1:]
 
 
 @kernel
@@ -181,6 +260,7 @@ def rates_along(
     wing: PrescribedWing,
     left: PrescribedWing,
     wakes: WakeTable,
+    lags: LagTable,
     phase: IntArray,
     states: FloatArray,
     air: FloatArray,
@@ -197,7 +277,7 @@ def rates_along(
     for i in range(count):
         if np.isfinite(states[i]).all():
             rates[i], jacobians[i] = rigid_rates(
-                wing, left, wakes, phase[i], states[i], air[i], aero, body, slopes_wanted
+                wing, left, wakes, lags, phase[i], states[i], air[i], aero, body, slopes_wanted
             )
     return rates, jacobians
 
@@ -207,6 +287,7 @@ def integrate_rigid(
     wing: PrescribedWing,
     left: PrescribedWing,
     wakes: WakeTable,
+    lags: LagTable,
     x0: FloatArray,
     step: float,
     air: FloatArray,
@@ -226,18 +307,24 @@ def integrate_rigid(
     sensitivity = np.eye(n)
     for i in range(steps):
         k, g = 2 * i, air[2 * i + 1]
-        k1, j1 = rigid_rates(wing, left, wakes, k, x, air[k], aero, body, True)
+        k1, j1 = rigid_rates(wing, left, wakes, lags, k, x, air[k], aero, body, True)
         s1 = j1 @ sensitivity
-        k2, j2 = rigid_rates(wing, left, wakes, k + 1, x + 0.5 * step * k1, g, aero, body, True)
+        k2, j2 = rigid_rates(
+            wing, left, wakes, lags, k + 1, x + 0.5 * step * k1, g, aero, body, True
+        )
         s2 = j2 @ (sensitivity + 0.5 * step * s1)
-        k3, j3 = rigid_rates(wing, left, wakes, k + 1, x + 0.5 * step * k2, g, aero, body, True)
+        k3, j3 = rigid_rates(
+            wing, left, wakes, lags, k + 1, x + 0.5 * step * k2, g, aero, body, True
+        )
         s3 = j3 @ (sensitivity + 0.5 * step * s2)
-        k4, j4 = rigid_rates(wing, left, wakes, k + 2, x + step * k3, air[k + 2], aero, body, True)
+        k4, j4 = rigid_rates(
+            wing, left, wakes, lags, k + 2, x + step * k3, air[k + 2], aero, body, True
+        )
         s4 = j4 @ (sensitivity + step * s3)
         x = x + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
         sensitivity = sensitivity + step / 6.0 * (s1 + 2.0 * s2 + 2.0 * s3 + s4)
         rates[i] = k1
         states[i + 1] = x
     k = 2 * steps
-    rates[steps], _ = rigid_rates(wing, left, wakes, k, x, air[k], aero, body, False)
+    rates[steps], _ = rigid_rates(wing, left, wakes, lags, k, x, air[k], aero, body, False)
     return states, rates, sensitivity

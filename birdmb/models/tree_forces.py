@@ -6,7 +6,7 @@ import numpy as np
 
 from birdmb._kernels import kernel
 from birdmb._typing import FloatArray, IntArray
-from birdmb.models.rates_kernel import Constants, Drivers, Motion, Shapes, air_forces
+from birdmb.models.air_kernel import Constants, Drivers, Motion, Shapes, air_forces
 from birdmb.models.springs import spring_torques
 from birdmb.models.tree_coordinates import attitude, generalised, space_state, whole
 
@@ -39,9 +39,14 @@ def tree_forces(
     twist[:3] -= attitude(seen).T @ air
     joints = slice(body, body + angles)
     motion = Motion(
-        twist.reshape(1, 6), np.zeros((1, 3)), q[joints].reshape(1, -1), v[joints].reshape(1, -1)
+        twist.reshape(1, 6),
+        np.zeros((1, 3)),
+        q[joints].reshape(1, -1),
+        v[joints].reshape(1, -1),
+        np.empty((1, 0)),
     )
-    loads, distance = air_forces(constants, shapes, motion, np.zeros(1, np.int64))
+    found = air_forces(constants, shapes, motion, drivers.accelerations[0], np.zeros(1, np.int64))
+    loads = found.forces
     wrench = np.zeros(6)
     for b in range(body):
         wrench[constants.links.directions[b]] = loads[0, b]
@@ -55,4 +60,4 @@ def tree_forces(
     forces[joints] = torques
     if constants.is_mirrored:
         forces[body + angles :] = torques
-    return forces, distance
+    return forces, found.clearance

@@ -8,8 +8,9 @@ from typing import Any, Literal, Self
 import numpy as np
 import numpy.typing as npt
 
-from birdmb._typing import BoolArray, FloatArray, IntArray
+from birdmb._typing import BoolArray, FloatArray
 from birdmb.errors import StateError
+from birdmb.models.air_kernel import Motion, Shapes
 from birdmb.models.compiled_calls import COMPILED, calls_compiled_code
 from birdmb.models.determinacy import refuse_undetermined
 from birdmb.models.exudyn_tree import ExudynBird
@@ -31,7 +32,6 @@ from birdmb.models.motion import (
     motion_named,
 )
 from birdmb.models.partition import partitioned
-from birdmb.models.rates_kernel import Motion
 from birdmb.models.refusals import held_state, refuse_asymmetric, require_inertia
 from birdmb.models.rigid import RigidModel
 from birdmb.models.springs import Springs, has_two_sides, spring_torques_along, springs_of
@@ -45,11 +45,11 @@ from birdmb.models.tree_coordinates import (
     whole,
 )
 from birdmb.models.tree_rates import TreeRates
+from birdmb.models.wake_states import wake_states
 from birdmb.models.wing_model import BirdModel
 from birdmb.topology import SIDES, Bird
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.chain import joints_turning_the_whole
-from birdmb.wing.stacked import StackedShapes
 
 
 class TreeModel(BirdModel):
@@ -80,8 +80,9 @@ class TreeModel(BirdModel):
             sides=1 if self.is_mirrored else len(SIDES),
             compliant=np.array(compliant + [True] * len(bird.hinged_feathers), dtype=bool),
         )
-        self.state_names = self.motion.states + self.joint_states.names
-        self.state_units = self.motion.units + self.joint_states.units
+        self.wake = wake_states(bird, 1 if self.is_mirrored else len(SIDES))
+        self.state_names = self.motion.states + self.joint_states.names + self.wake.names
+        self.state_units = self.motion.units + self.joint_states.units + self.wake.units
         springs = [springs_of(bird.side(side)) for side in SIDES]
         self._springs = Springs(*(np.concatenate(pair) for pair in zip(*springs, strict=True)))
         self.rigid_joint_count = joints_turning_the_whole(self.wing)
@@ -98,6 +99,7 @@ class TreeModel(BirdModel):
             aero=self.aero,
             springs=self._springs,
             prescribed=self.prescribed,
+            lags=self.wake.lags,
         )
         if self.joint_states.count:
             angles, _, _ = self.drivers_of_both(np.zeros(1))
@@ -138,7 +140,8 @@ class TreeModel(BirdModel):
         """How states of the bird become those of its mirror image: the wings change sides."""
         of_body = super().mirror
         order = of_body.order.copy()
-        order[self.joint_states.first :] = self.joint_states.mirrored
+        order[self.joint_states.states] = self.joint_states.mirrored
+        order[self._lags] = self.wake.mirrored(self._lags.start)
         return Mirror(order, of_body.signs)
 
     def body_in_space(self, states: FloatArray) -> FloatArray:
@@ -158,6 +161,9 @@ class TreeModel(BirdModel):
 
     @calls_compiled_code
     def _chosen_integration(self) -> Integration:
+        if self.wake.count:
+            steps = super().steps_per_beat
+            return Integration("implicit", steps)
         if not self.joint_states.compliant.any() and self._integrator == "auto":
             return Integration("explicit", super().steps_per_beat)
         return integration_for(self, self._steps_wanted, self._integrator)
@@ -185,7 +191,7 @@ class TreeModel(BirdModel):
     @property
     def state_scale(self) -> FloatArray:
         """Typical sizes of the states, (n,)."""
-        return np.array(self.motion.scale + self.joint_states.scale)
+        return np.array(self.motion.scale + self.joint_states.scale + self.wake.scale)
 
     def motion_of_both(
         self, times: FloatArray, states: FloatArray
@@ -244,16 +250,19 @@ class TreeModel(BirdModel):
             for each in self.motion_of_both(times, states)
         )
         twist = self._twist_through_air(times, space)
-        motion = Motion(twist, gravity_along_body(space, self.bird.gravity), angles, rates)
-        a = self.tree.accelerations(times, motion)
+        lags = states[:, self._lags]
+        motion = Motion(twist, gravity_along_body(space, self.bird.gravity), angles, rates, lags)
+        a, lag_rates = self.tree.accelerations(times, motion)
         found = np.empty(states.shape)
+        joints = self.joint_states.states
         first = self.joint_states.first
         if first:
             of_body = np.zeros((len(states), 6))
             of_body[:, self.motion.directions] = a[:, : self.motion.directions.size]
             found[:, :first] = state_rates(space, of_body)[:, self.motion.indices]
-        found[:, first::2] = states[:, first + 1 :: 2]
-        found[:, first + 1 :: 2] = a[:, self.motion.directions.size :]
+        found[:, joints][:, ::2] = states[:, joints][:, 1::2]
+        found[:, joints][:, 1::2] = a[:, self.motion.directions.size :]
+        found[:, self._lags] = lag_rates
         return found
 
     def accelerations(self, t: float, x: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
@@ -319,9 +328,15 @@ class TreeModel(BirdModel):
         _, v = self._coordinates(times, states)
         return np.asarray((forces[:, :body] * v[:, :body]).sum(axis=1))
 
-    def _shapes_along(
-        self, times: FloatArray, angles: FloatArray, rates: FloatArray
-    ) -> tuple[tuple[StackedShapes, StackedShapes], IntArray]:
+    def _joint_accelerations(
+        self, rates: FloatArray, driven: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        free = np.zeros_like(driven)
+        self.joint_states.put(rates, np.zeros_like(driven), free)
+        driven[:, :, self.joint_states.compliant] = 0.0
+        return free, driven
+
+    def _shapes_along(self, times: FloatArray, angles: FloatArray, rates: FloatArray) -> Shapes:
         return self.tree.shapes(times, angles, rates)
 
     def driven_state(self, t: float = 0.0) -> FloatArray:
@@ -330,22 +345,45 @@ class TreeModel(BirdModel):
 
     def guess_along(self, times: FloatArray) -> FloatArray:
         """A guess (K, n) of a limit cycle at `times` (K,) s: `driven_state` at each."""
-        guess = np.empty((times.size, len(self.state_names)))
+        guess = np.empty((times.size, self._lags.start))
         if self.motion is not HELD:
             guess[:, : self.joint_states.first] = self._trim
         angles, rates, _ = self.drivers_of_both(times)
-        guess[:, self.joint_states.first :] = self.joint_states.taken(angles, rates)
-        return guess
+        guess[:, self.joint_states.states] = self.joint_states.taken(angles, rates)
+        return self.with_lags(times, guess[:, : self._lags.start])
+
+    def with_lags(self, times: FloatArray, motion: FloatArray) -> FloatArray:
+        """States (K, n) of those of body and joints (K, m): with the lags that these settle at."""
+        if not self.wake.count:
+            return motion
+        states = np.hstack([motion, np.zeros((times.size, self.wake.count))])
+        rates = self.rates(times, states)[:, self._lags]
+        return np.hstack([motion, self.wake.settled(rates, self._lag_slopes(times, states))])
+
+    def _lag_slopes(self, times: FloatArray, states: FloatArray) -> FloatArray:
+        """Derivatives (K, m, m) of the lags' rates by the lags, in which these are linear."""
+        count = self.wake.count
+        shifted = np.repeat(states[:, None], count + 1, axis=1)
+        shifted[:, 1:, self._lags] += np.eye(count)
+        rows = np.repeat(times, count + 1), shifted.reshape(-1, states.shape[1])
+        found = self.rates(*rows)[:, self._lags].reshape(times.size, count + 1, count)
+        return np.asarray((found[:, 1:] - found[:, :1]).transpose(0, 2, 1))
 
     @cached_property
     def _trim(self) -> FloatArray:
-        planar = RigidModel(self.bird.side("right")).initial_guess()
+        still = self.bird.side("right").with_values({"air.wake": "quasi-steady"})
+        planar = RigidModel(still).initial_guess()
         return PLANAR.in_space(planar[None])[0, self.motion.indices]
 
     @property
     def _joints(self) -> slice:
         """The tree's coordinates of joints and hinges, those of the right wing first."""
         return slice(self._coordinates_of_body.size, None)
+
+    @property
+    def _lags(self) -> slice:
+        """Where the lags of the air stand among the states."""
+        return slice(self.joint_states.states.stop, None)
 
     def _follow_drivers(self) -> BoolArray:
         """Which of the tree's coordinates (n,) follow a driver."""

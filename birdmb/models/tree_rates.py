@@ -6,16 +6,17 @@ import numpy as np
 
 from birdmb._typing import BoolArray, FloatArray, IntArray
 from birdmb.aerodynamics.airframe import AeroConstants
+from birdmb.aerodynamics.wake_lags import WakeLags
+from birdmb.models.air_kernel import Constants, Drivers, Motion, Shapes
 from birdmb.models.exudyn_tree import TreeInertia, tree_links
 from birdmb.models.failures import overflow_told, wing_misplaced
 from birdmb.models.instants import Instants, StackedInstants
-from birdmb.models.rates_kernel import Constants, Drivers, Motion, Shapes, free_accelerations
+from birdmb.models.rates_kernel import free_accelerations
 from birdmb.models.row_groups import groups_of
 from birdmb.models.springs import Springs
 from birdmb.models.tree_forces import tree_forces
 from birdmb.topology import Bird
 from birdmb.wing.arrays import WingArrays, joint_arrays
-from birdmb.wing.stacked import StackedShapes
 
 
 class TreeRates:
@@ -31,6 +32,7 @@ class TreeRates:
         aero: constants of the air, tail and body.
         springs: of the joints and hinges of the right wing, then of the left one.
         prescribed: which coordinates (c,) of the tree follow a given motion.
+        lags: where the wings' lags are kept; nowhere if the air has no memory.
     """
 
     def __init__(
@@ -45,6 +47,7 @@ class TreeRates:
         aero: AeroConstants,
         springs: Springs,
         prescribed: BoolArray,
+        lags: WakeLags,
     ) -> None:
         self._bird, self._instants, self._coordinates = bird, instants, body_coordinates
         self._is_mirrored, self._rigid_joint_count = is_mirrored, rigid_joint_count
@@ -59,11 +62,12 @@ class TreeRates:
             prescribed[: body + count],
             rigid_joint_count,
             is_mirrored,
+            lags,
         )
         self.inertia = TreeInertia(bird, body_coordinates)
 
-    def accelerations(self, times: FloatArray, motion: Motion) -> FloatArray:
-        """Accelerations (K, F) of the free coordinates of body and wings.
+    def accelerations(self, times: FloatArray, motion: Motion) -> tuple[FloatArray, FloatArray]:
+        """Accelerations (K, F) of the free coordinates of body and wings, rates (K, L) of the lags.
 
         At `times` (K,) s. The body's are in space, in body axes.
 
@@ -75,9 +79,11 @@ class TreeRates:
         drivers, instants = self.drivers_at(distinct)
         with overflow_told(self._bird, f"the acceleration at t = {times[0]:.4g} s"):
             shapes = self.shapes_at(instants, times, time_of, motion.angles, motion.rates)
-            found, clearance = free_accelerations(self.constants, shapes, time_of, drivers, motion)
+            found, lag_rates, clearance = free_accelerations(
+                self.constants, shapes, time_of, drivers, motion
+            )
         self._refuse_misplaced(times, motion.angles, clearance)
-        return found
+        return found, lag_rates
 
     def forces(self, t: float, q: FloatArray, v: FloatArray, air: FloatArray) -> FloatArray:
         """Generalised forces (n,) of air, springs and dampers at t (s); see `tree_forces`."""
@@ -102,9 +108,7 @@ class TreeRates:
         right, left = (each.stacked(np.array([t])).accelerations[0] for each in self._instants)
         return np.concatenate([np.zeros(self._coordinates.size), right, left])
 
-    def shapes(
-        self, times: FloatArray, angles: FloatArray, rates: FloatArray
-    ) -> tuple[tuple[StackedShapes, StackedShapes], IntArray]:
+    def shapes(self, times: FloatArray, angles: FloatArray, rates: FloatArray) -> Shapes:
         """Shapes of both wings at `times` (K,), `angles` and `rates` (K, 2, A).
 
         Those with the joints at zero that turn them, and which (2, K) of them each instant has.
@@ -112,9 +116,7 @@ class TreeRates:
         distinct, time_of = np.unique(times, return_inverse=True)
         _, instants = self.drivers_at(distinct)
         flat = len(times), -1
-        found = self.shapes_at(instants, times, time_of, angles.reshape(flat), rates.reshape(flat))
-        both = found.stacks[0], found.stacks[-1]
-        return both, np.stack([found.of[0], found.of[-1]])
+        return self.shapes_at(instants, times, time_of, angles.reshape(flat), rates.reshape(flat))
 
     def drivers_at(self, distinct: FloatArray) -> tuple[Drivers, list[StackedInstants]]:
         """Drivers at times (P,) s of both wings together, and what these determine of each."""
@@ -143,13 +145,22 @@ class TreeRates:
                 of.append(time_of)
                 continue
             own_angles, own_rates = angles[:, own], rates[:, own]
-            alike = groups_of(time_of, own_angles[:, self._rigid_joint_count :].copy())
+            shaping = [own_angles[:, self._rigid_joint_count :]]
+            if self.constants.lags.kept.size:
+                # What changes of a shape's velocity is not linear in the rates.
+                shaping.append(own_rates[:, self._rigid_joint_count :])
+            alike = groups_of(time_of, np.hstack(shaping))
             first = alike.first
             stacks.append(
-                self._instants[side].shapes(times[first], own_angles[first], own_rates[first])
+                self._instants[side].shapes(
+                    times[first],
+                    own_angles[first],
+                    own_rates[first],
+                    each.accelerations[time_of[first]],
+                )
             )
             of.append(alike.of)
-        return Shapes(tuple(stacks), of[0][None] if len(of) == 1 else np.stack(of))
+        return Shapes((stacks[0], stacks[-1]), np.stack([of[0], of[-1]]))
 
     def _refuse_misplaced(
         self, times: FloatArray, angles: FloatArray, clearance: FloatArray

@@ -9,20 +9,22 @@ from typing import Any, Literal, Self
 import numpy as np
 import numpy.typing as npt
 
-from birdmb._typing import FloatArray, IntArray
+from birdmb._typing import FloatArray
 from birdmb.aerodynamics.airframe import aero_constants
 from birdmb.aerodynamics.elements import place_elements
 from birdmb.aerodynamics.prescribed import driver_motion_along
 from birdmb.errors import ArgumentError, StateError
+from birdmb.models.air_kernel import Shapes
 from birdmb.models.failures import lifting_line_lost, overflow_told, wing_misplaced
 from birdmb.models.flight import Flight
 from birdmb.models.gusts import Gust, velocity_of
 from birdmb.models.loads import Loads, LoadsAlong
-from birdmb.models.loads_kernel import loads_along
+from birdmb.models.loads_kernel import Memory, loads_along
 from birdmb.models.motion import PLANAR, Mirror, Motion, along_body
+from birdmb.models.wake_states import WakeStates
 from birdmb.topology import Bird
 from birdmb.wing.arrays import joint_arrays, wing_arrays
-from birdmb.wing.stacked import StackedShapes, shape_at, wing_shapes
+from birdmb.wing.stacked import shape_at, wing_shapes
 
 # Divisible by 1 to 6: that many shooting segments then share one grid of steps.
 STEPS_PER_BEAT = 60
@@ -42,6 +44,7 @@ class BirdModel(ABC):
     state_names: tuple[str, ...]
     state_units: tuple[str, ...]
     motion: Motion = PLANAR
+    wake: WakeStates
     # How many joints at the shoulder are left out of the wing's shape: they turn it as a whole.
     rigid_joint_count = 0
 
@@ -224,21 +227,21 @@ class BirdModel(ABC):
             raise StateError(f"loads asked for at t = {t:.6g} s in a state that is not finite.")
         angles, rates = self.motion_of_both(times, states)
         with overflow_told(self.bird, f"the force of the air at t = {times[0]:.4g} s"):
-            shapes, shape_of = self._shapes_along(times, angles, rates)
-            for side, of in enumerate(shape_of):
-                converged = shapes[side].converged[of]
+            shapes = self._shapes_along(times, angles, rates)
+            for side, of in enumerate(shapes.of):
+                converged = shapes.stacks[side].now.converged[of]
                 if not converged.all():
                     k = int(np.argmin(converged))
                     raise lifting_line_lost(self.bird, float(times[k]), angles[k, side])
             stack = loads_along(
                 joint_arrays(self.wing),
                 shapes,
-                shape_of,
                 self.rigid_joint_count,
                 self.aero,
                 angles,
                 rates,
                 self._twist_through_air(times, self.body_in_space(states)),
+                self._memory_along(times, states),
             )
         for side, wing in enumerate((stack.right, stack.left)):
             misplaced = ~(wing.clearance >= 0.0)
@@ -249,13 +252,32 @@ class BirdModel(ABC):
         return LoadsAlong(stack, self.aero)
 
     @abstractmethod
-    def _shapes_along(
-        self, times: FloatArray, angles: FloatArray, rates: FloatArray
-    ) -> tuple[tuple[StackedShapes, StackedShapes], IntArray]:
+    def _shapes_along(self, times: FloatArray, angles: FloatArray, rates: FloatArray) -> Shapes:
         """Shapes of right and left wing at angles and rates (K, 2, A), and which (2, K) is whose.
 
         Those with the joints at zero that turn a wing as a whole.
         """
+
+    def _memory_along(self, times: FloatArray, states: FloatArray) -> Memory:
+        """What the air remembers at `times` (K,) s in states (K, n), and what accelerates it."""
+        _, _, driven = self.drivers_of_both(times)
+        lags = states[:, states.shape[1] - self.wake.count :]
+        of_body, free = np.zeros((times.size, 6)), np.zeros_like(driven)
+        if self.wake.count:
+            rates, space = self.rates(times, states), self.body_in_space(states)
+            of_body = self.motion.in_space(rates)[:, :6]
+            of_body[:, :3] += np.cross(space[:, 3:6], space[:, :3])
+            free, driven = self._joint_accelerations(rates, driven)
+        return Memory(self.wake.lags, self.wake.sides, lags, of_body, free, driven)
+
+    def _joint_accelerations(
+        self, _rates: FloatArray, driven: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Accelerations, each (K, 2, A) rad/s2, of the joints that are free and of the others.
+
+        Of the states' rates (K, n) and the drivers' accelerations. Here all follow drivers.
+        """
+        return np.zeros_like(driven), driven
 
     def _twist_through_air(self, times: FloatArray, space: FloatArray) -> FloatArray:
         """Twist (K, 6) of the body relative to the air, m/s and rad/s, in states (K, 8)."""

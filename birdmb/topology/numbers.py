@@ -102,4 +102,7 @@ Order = Annotated[int, Strict(), Field(ge=1), _within(1, 500, "periods in a beat
 Elements = Annotated[
     int, Strict(), Field(ge=2), _within(2, 1024, "time grows with the cube of their number")
 ]
+WakePoints = Annotated[
+    int, Strict(), Field(ge=4), _within(4, 1024, "a cubic spline leads through four points or more")
+]
 Direction = Annotated[Real, _within(-1e6, 1e6, "only the direction counts")]

@@ -44,6 +44,7 @@ from birdmb.topology.numbers import (
     MomentCoefficient,
     Viscosity,
     Volume,
+    WakePoints,
 )
 
 NO_DIRECTION = 1e-100  # of its square little is left
@@ -89,6 +90,14 @@ class Air(Part):
     density: Density = Field(default=1.225, description="density of the air, kg/m3")
     kinematic_viscosity: Viscosity = Field(
         default=1.5e-5, description="viscosity over density, m2/s; friction of tail and body"
+    )
+    wake: Literal["quasi-steady", "unsteady"] = Field(
+        default="quasi-steady",
+        description='"unsteady": circulations lag behind the motion, and the air about the wing '
+        "has inertia",
+    )
+    wake_points: WakePoints = Field(
+        default=6, description="points along a wing at which lags of an unsteady wake are kept"
     )
 
 

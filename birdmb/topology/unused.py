@@ -30,6 +30,8 @@ def unused_values(bird: Bird) -> dict[str, str]:
         own = "every section has a profile of its own"
         unused |= {f"wing.profile.{key}": own for key in Profile.model_fields}
         unused["wing.profile.zero_lift_angle_deg"] = own
+    if bird.air.wake == "quasi-steady":
+        unused["air.wake_points"] = "the air has no memory (air.wake is quasi-steady)"
     skin_friction = bird.drag.body and bird.drag.body_coefficient is None
     if bird.tail is None and not skin_friction:
         unused["air.kinematic_viscosity"] = "nothing has friction (a tail or drag.body would)"
