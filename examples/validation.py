@@ -1,6 +1,7 @@
 """The program against measurements: `python examples/validation.py [DIR]`.
 
-Prints the tables of docs/validation.md and saves its figures in DIR (default results/).
+Prints the numbers of docs/validation.md and saves its figures in DIR (default results/): of all
+cases, or of the letters that follow, as in `python examples/validation.py results A B`.
 """
 
 import sys
@@ -41,7 +42,7 @@ def new_figure(width: float, columns: int) -> tuple[Figure, list[Axes]]:
     return figure, axes
 
 
-def scherers_wing() -> Figure:
+def scherers_wing(_: list[Comparison]) -> Figure:
     figure, panels = new_figure(9.0, 2)
     leads = np.arange(0.0, 121.0, 7.5)
     for axes, pitch in zip(panels, (15.0, 25.0), strict=True):
@@ -56,7 +57,7 @@ def scherers_wing() -> Figure:
     return figure
 
 
-def yeos_wing() -> Figure:
+def yeos_wing(_: list[Comparison]) -> Figure:
     figure, (axes,) = new_figure(6.5, 1)
     phases = np.arange(len(yeo.LIFT)) / len(yeo.LIFT)
     axes.axhline(0.0, color="0.8", lw=0.8)
@@ -70,7 +71,7 @@ def yeos_wing() -> Figure:
     return figure
 
 
-def sections_and_starts() -> Figure:
+def sections_and_starts(_: list[Comparison]) -> Figure:
     figure, (deficiency, thrust, start) = new_figure(11.0, 3)
     k = np.linspace(0.02, 0.6, 30)
     exact = np.array([wake_deficiency(one) for one in k])
@@ -118,7 +119,7 @@ def sections_and_starts() -> Figure:
     return figure
 
 
-def sprung_plates() -> Figure:
+def sprung_plates(_: list[Comparison]) -> Figure:
     figure, panels = new_figure(11.0, 3)
     k = np.linspace(0.05, 0.8, 26)
     for plate, colour in zip(
@@ -149,7 +150,7 @@ def sprung_plates() -> Figure:
     return figure
 
 
-def plane_wing() -> Figure:
+def plane_wing(_: list[Comparison]) -> Figure:
     figure, (loading, bars) = new_figure(9.0, 2)
     strips = (np.arange(len(derivatives.AVL_SECTION_LIFT)) + 0.5) / len(
         derivatives.AVL_SECTION_LIFT
@@ -176,24 +177,19 @@ def plane_wing() -> Figure:
     return figure
 
 
-def jackdaws() -> Figure:
+def jackdaws(compared: list[Comparison]) -> Figure:
     figure, (axes,) = new_figure(6.5, 1)
-    axes.plot(list(jackdaw.POWERS), list(jackdaw.POWERS.values()), label="afpt", **MEASURED)
-    speeds = np.arange(6.5, 16.6, 0.5)
-    for name, values in jackdaw.WAKES.items():
-        powers = []
-        for speed in speeds:
-            try:
-                powers.append(jackdaw.level_flight(float(speed), values).cycle.power)
-            except birdmb.BirdmbError:
-                powers.append(np.nan)
-        axes.plot(speeds, powers, label=name, **STYLES[name])
+    speeds = list(jackdaw.POWERS)
+    axes.plot(speeds, [one.measured for one in compared], label="afpt", **MEASURED)
+    for name in jackdaw.WAKES:
+        powers = [one.computed.get(name, np.nan) for one in compared]
+        axes.plot(speeds, powers, label=name, marker=".", **STYLES[name])
     axes.set(xlabel="speed (m/s)", ylabel="aerodynamic power (W)", ylim=(0.0, None))
     axes.legend(frameon=False, fontsize="small")
     return figure
 
 
-FIGURES: dict[str, Callable[[], Figure]] = {
+FIGURES: dict[str, Callable[[list[Comparison]], Figure]] = {
     "A": scherers_wing,
     "B": yeos_wing,
     "C": sections_and_starts,
@@ -217,15 +213,17 @@ def table(compared: list[Comparison]) -> str:
     return "\n".join(lines)
 
 
-def main(directory: Path) -> None:
+def main(directory: Path, letters: list[str]) -> None:
     """Print the tables and save the figures."""
     directory.mkdir(parents=True, exist_ok=True)
-    for experiment in experiments():
+    chosen = [one for letter in letters for one in experiments(letter)] or experiments()
+    for experiment in chosen:
         print(f"\n{experiment.case}: {experiment.title} ({experiment.source})\n")
-        print(table(list(experiment.compare())))
-        figure = FIGURES[experiment.case]()
+        compared = list(experiment.compare())
+        print(table(compared))
+        figure = FIGURES[experiment.case](compared)
         figure.savefig(directory / f"validation_{experiment.case}.png", dpi=120)
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1] if len(sys.argv) > 1 else "results"))
+    main(Path(sys.argv[1] if len(sys.argv) > 1 else "results"), sys.argv[2:])

@@ -38,7 +38,7 @@ def test_scherers_wing():
 
 
 def test_scherers_thrust_does_not_hang_on_the_discretisation():
-    fine = {"elements": 48, "lag_points": 14, "instants": 161}
+    fine = {"elements": 48, "wake_points": 14, "instants": 161}
     (coarse,) = scherer.thrust_coefficients([60.0], CHOICES[UNSTEADY])
     pitch = np.radians(15.0) * np.exp(1j * np.radians(60.0))
     motion = birdmb.WingMotion(5.0, [0.0, scherer.HEAVE], [0.0, pitch], pitch_axis=0.75)

@@ -147,7 +147,7 @@ def test_refined_elements_lags_and_instants_change_little():
     wing = PlaneWing((0.0, 0.4, 0.7), (0.2, 0.18, 0.03))
     motion = WingMotion(4.0, pitch=[0.05, 0.2], flap=[0.1, -0.6j])
     coarse = moving_wing_loads(wing, motion, speed=9.0)
-    fine = moving_wing_loads(wing, motion, speed=9.0, elements=64, lag_points=24, instants=193)
+    fine = moving_wing_loads(wing, motion, speed=9.0, elements=64, wake_points=24, instants=193)
     for name in ("mean_lift_coefficient", "mean_thrust_coefficient", "mean_power_coefficient"):
         assert getattr(coarse, name) == pytest.approx(getattr(fine, name), rel=3e-3)
 
@@ -196,7 +196,7 @@ def test_the_robot_is_the_same_wing_by_its_sections_as_by_its_topology():
         (lambda: loads_of(wake="steady"), 'not "steady"'),
         (lambda: loads_of(speed=0.0), "positive and finite"),
         (lambda: loads_of(elements=2), "elements or more"),
-        (lambda: loads_of(lag_points=40), "lag_points"),
+        (lambda: loads_of(wake_points=40), "wake_points"),
         (lambda: loads_of(instants=8), "odd and 5 or more"),
         (lambda: loads_of(times=[1.0, 0.0]), "ascending"),
     ],

@@ -39,7 +39,7 @@ AVL = {
 AVL_SECTION_LIFT = (
     0.2618, 0.2646, 0.2661, 0.2664, 0.2654, 0.2628, 0.2584, 0.2513, 0.2404, 0.2233, 0.1952, 0.1434,
 )  # fmt: skip
-_LAG_POINTS = 8
+_WAKE_POINTS = 6
 _STEP = 1e-4
 _MIRROR = np.diag([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
 LINE = lifting_line(WING, 48, MOMENTS_AT / WING.chords[0])
@@ -61,7 +61,7 @@ def quasi_steady_wrench(line: WingShape) -> Wrench:
 def settled_wrench(line: WingShape) -> Wrench:
     """Wrench by twist (6,) of a wing whose lags have settled; air of density 1."""
     placed, count = place_elements(line, np.zeros(3)), len(line.chord)
-    lags = wake_lags(count, _LAG_POINTS)
+    lags = wake_lags(count, _WAKE_POINTS)
     pair = pair_system(placed, placed, False)
     system = lag_system(placed, placed, pair.induced_y, pair.induced_z, lags)
     still = section_motion(line, line, line, 1.0)

@@ -16,7 +16,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from birdmb.errors import BirdmbError
-from birdmb.studies.experiments.comparison import QUASI_STEADY, Comparison, Experiment
+from birdmb.studies.experiments.comparison import QUASI_STEADY, UNSTEADY, Comparison, Experiment
 from birdmb.studies.scaling import scale_bird
 from birdmb.studies.trim import Trim, trim_flight
 from birdmb.topology import Bird, load_bird
@@ -27,7 +27,7 @@ SPAN, AREA = 0.67, 0.0652  # m, m2
 POWERS = {6.0: 2.37, 8.0: 2.09, 10.0: 2.29, 12.0: 2.83, 14.0: 3.67, 16.0: 4.83}
 # On those of the scaled bird, for span and area.
 _BONES, _FEATHERS = 1.260606, 0.995129
-WAKES: Mapping[str, Mapping[str, object]] = {QUASI_STEADY: {}}
+WAKES: Mapping[str, Mapping[str, object]] = {QUASI_STEADY: {}, UNSTEADY: {"air.wake": "unsteady"}}
 
 
 def jackdaw(values: Mapping[str, object] | None = None) -> Bird:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.aerodynamics.apparent_mass import ApparentInertia, apparent_inertia
+from birdmb.aerodynamics.apparent_mass import ApparentInertia, apparent_inertia, inertia_wrenches
 from birdmb.aerodynamics.elements import Elements, place_elements
 from birdmb.aerodynamics.pair import pair_loads, pair_wrench
 from birdmb.aerodynamics.section_motion import SectionMotion, section_motion
@@ -62,7 +62,7 @@ class MovingWing:
         speed: float,
         density: float,
         elements: int,
-        lag_points: int,
+        wake_points: int,
         apparent_mass: bool,
     ) -> None:
         self._motion = motion
@@ -70,7 +70,7 @@ class MovingWing:
         self._profile_drag = wing.profile_drag
         self._apparent_mass = apparent_mass
         self._line = lifting_line(wing, elements, motion.pitch_axis)
-        self._lags = wake_lags(elements, lag_points)
+        self._lags = wake_lags(elements, wake_points)
         placed = place_elements(self._line, np.zeros(3))
         self.widths = placed.width
         self.positions = np.cumsum(placed.width) - 0.5 * placed.width
@@ -199,19 +199,11 @@ class MovingWing:
 
 def _accelerating(at: Instant) -> FloatArray:
     """Loads (N, 6) N and N m of apparent mass by the acceleration of the body's axes."""
-    placed, air, linear, angular = (
-        at.elements,
-        at.air,
-        at.acceleration[:3],
-        at.acceleration[3:],
-    )
-    at_elements = np.empty((len(placed.chord), 6))
-    at_elements[:, :3] = linear + np.cross(angular, placed.position)
-    at_elements[:, 3:] = angular
-    loads = -(air.mass * (air.direction * at_elements).sum(axis=1))[:, None] * air.direction
-    about_span = air.moment * (placed.span_direction @ angular)
-    loads[:, 3:] -= about_span[:, None] * placed.span_direction
-    return np.asarray(loads)
+    placed, linear, angular = at.elements, at.acceleration[:3], at.acceleration[3:]
+    accelerations = np.empty((len(placed.chord), 6))
+    accelerations[:, :3] = linear + np.cross(angular, placed.position)
+    accelerations[:, 3:] = angular
+    return inertia_wrenches(placed, at.air, accelerations)
 
 
 def _pitch_rate(at: Instant) -> FloatArray:

@@ -122,7 +122,7 @@ def moving_wing_loads(
     wake: Wake = "unsteady",
     apparent_mass: bool = True,
     elements: int = 32,
-    lag_points: int = 8,
+    wake_points: int = 6,
     instants: int = 129,
     times: npt.ArrayLike | None = None,
 ) -> MovingWingLoads:
@@ -141,7 +141,7 @@ def moving_wing_loads(
         wake: "quasi-steady", or "unsteady", in which circulation and downwash lag behind.
         apparent_mass: whether the sections have apparent mass and what goes with it.
         elements: in each half.
-        lag_points: elements in each half at which lags are kept.
+        wake_points: elements in each half at which lags are kept.
         instants: in a period, odd.
         times: ascending instants (K,) s of a start, in a wake that holds nothing at the first of
             them; by default the loads that repeat themselves every period.
@@ -157,9 +157,9 @@ def moving_wing_loads(
         raise ArgumentError("speed and density must be positive and finite.")
     if elements < _FEWEST_ELEMENTS:
         raise ArgumentError(f"a half wing needs {_FEWEST_ELEMENTS} elements or more.")
-    if not _FEWEST_ELEMENTS <= lag_points <= elements:
-        raise ArgumentError(f"lag_points must be from {_FEWEST_ELEMENTS} to elements, {elements}.")
-    moving = MovingWing(wing, motion, speed, density, elements, lag_points, apparent_mass)
+    if not _FEWEST_ELEMENTS <= wake_points <= elements:
+        raise ArgumentError(f"wake_points must be from {_FEWEST_ELEMENTS} to elements, {elements}.")
+    moving = MovingWing(wing, motion, speed, density, elements, wake_points, apparent_mass)
     at = _instants(motion, instants) if times is None else _start(times)
     if wake == "unsteady":
         if times is None:
