@@ -117,7 +117,7 @@ def test_lags_that_have_settled_leave_the_steady_wing():
 
 
 def test_the_jackdaw_has_the_size_that_it_should():
-    bird = jackdaw.jackdaw()
+    bird = jackdaw.jackdaw({})
     assert bird.total_mass == pytest.approx(jackdaw.MASS, rel=1e-12)
     assert bird.gait.frequency == jackdaw.FREQUENCY
     wing = wing_arrays(bird)
@@ -128,9 +128,14 @@ def test_the_jackdaw_has_the_size_that_it_should():
     assert 2.0 * placed.chord @ placed.width == pytest.approx(jackdaw.AREA, rel=1e-4)
 
 
-def test_the_jackdaws_power_in_cruise():
-    power = jackdaw.level_flight(12.0).cycle.power
-    assert power == pytest.approx(jackdaw.POWERS[12.0], rel=0.05)
+def test_the_jackdaws_power_over_speed():
+    """In quasi-steady air: right in cruise, rising too steeply; at 6 m/s nothing flies level."""
+    flights = jackdaw.level_flights({})
+    assert set(flights) == set(jackdaw.POWERS)
+    assert flights[jackdaw.CRUISE].cycle.power == pytest.approx(2.83, rel=0.05)
+    powers = [flights[speed].cycle.power for speed in (8.0, 10.0, 12.0, 14.0, 16.0)]
+    assert (np.diff(powers) > 0.0).all()
+    assert "no trim" in flights[6.0]
 
 
 def test_every_case_has_its_letter_and_source():

@@ -18,19 +18,20 @@ import numpy as np
 from birdmb.errors import BirdmbError
 from birdmb.studies.experiments.comparison import QUASI_STEADY, UNSTEADY, Comparison, Experiment
 from birdmb.studies.scaling import scale_bird
-from birdmb.studies.trim import Trim, trim_flight
+from birdmb.studies.trim import Trim, TrimGuess, trim_flight
 from birdmb.topology import Bird, load_bird
 
 MASS, FREQUENCY = 0.215, 5.95  # kg, Hz
 SPAN, AREA = 0.67, 0.0652  # m, m2
 # m/s: W.
+CRUISE = 12.0
 POWERS = {6.0: 2.37, 8.0: 2.09, 10.0: 2.29, 12.0: 2.83, 14.0: 3.67, 16.0: 4.83}
 # On those of the scaled bird, for span and area.
 _BONES, _FEATHERS = 1.260606, 0.995129
 WAKES: Mapping[str, Mapping[str, object]] = {QUASI_STEADY: {}, UNSTEADY: {"air.wake": "unsteady"}}
 
 
-def jackdaw(values: Mapping[str, object] | None = None) -> Bird:
+def jackdaw(values: Mapping[str, object]) -> Bird:
     """The bird, with other values by dotted name."""
     scaled = scale_bird(load_bird("pigeon"), MASS, span=SPAN, frequency=FREQUENCY).bird
     sizes: dict[str, object] = {"name": "jackdaw", "wing.root.y": scaled.wing.root.y * _BONES}
@@ -41,28 +42,43 @@ def jackdaw(values: Mapping[str, object] | None = None) -> Bird:
         sizes[f"segments.{name}.centre_of_mass"] = [x * _BONES for x in segment.centre_of_mass]
     for feather in scaled.feathers:
         sizes[f"feathers.{feather.name}.length"] = feather.length * _FEATHERS
-    return scaled.with_values({**sizes, **(values or {})})
+    return scaled.with_values({**sizes, **values})
 
 
-def level_flight(speed: float, values: Mapping[str, object] | None = None) -> Trim:
-    """The jackdaw's level flight at a speed (m/s).
+def level_flights(values: Mapping[str, object]) -> dict[float, Trim | str]:
+    """The jackdaw's level flights by speed (m/s), or why there is none.
 
-    Raises:
-        TrimError: there is none.
+    Followed up and down from the speed of cruise, so that each starts from its neighbour's.
     """
-    return trim_flight(jackdaw(values), speed=speed)
+    bird, speeds = jackdaw(values), sorted(POWERS)
+    cruise = trim_flight(bird, speed=CRUISE)
+    found: dict[float, Trim | str] = {CRUISE: cruise}
+    middle = speeds.index(CRUISE)
+    for onwards in (speeds[middle + 1 :], speeds[:middle][::-1]):
+        last = cruise
+        for speed in onwards:
+            guess = TrimGuess(last.values, last.cycle)
+            try:
+                last = trim_flight(bird, speed=speed, guess=guess)
+            except BirdmbError as error:
+                found[speed] = str(error)
+            else:
+                found[speed] = last
+    return found
 
 
 def _compare() -> Iterator[Comparison]:
+    flights = {name: level_flights(values) for name, values in WAKES.items()}
     for speed, power in POWERS.items():
-        computed, failure = {}, ""
-        for name, values in WAKES.items():
-            try:
-                computed[name] = level_flight(speed, values).cycle.power
-            except BirdmbError as error:
-                failure = str(error)
+        computed, failures = {}, []
+        for name, found in flights.items():
+            flight = found[speed]
+            if isinstance(flight, str):
+                failures.append(f"{name}: {flight}")
+            else:
+                computed[name] = float(flight.cycle.power)
         quantity = f"aerodynamic power at {speed:g} m/s"
-        yield Comparison("G", quantity, "W", power, computed, failure=failure)
+        yield Comparison("G", quantity, "W", power, computed, failure=" ".join(failures))
 
 
 EXPERIMENT = Experiment(
