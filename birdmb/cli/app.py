@@ -319,7 +319,8 @@ def schema(
 
 
 @app.command(
-    epilog="Exit status: 0; 2 wrong option; 130 interrupted. Takes a minute or two.\n\n"
+    epilog="Exit status: 0; 2 wrong option; 130 interrupted. Takes a minute or two, "
+    "with --experiments some more.\n\n"
     "Examples:\n\nbirdmb validate\n\nbirdmb validate --experiments --case A"
 )
 def validate(
