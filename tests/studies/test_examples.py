@@ -23,16 +23,6 @@ def test_example(name, tmp_path, monkeypatch, capsys):
     assert figure.stat().st_size > 10_000
 
 
-def test_validation_draws_the_cases_that_are_asked_for(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(sys, "argv", ["validation", str(tmp_path), "e", "B"])
-    runpy.run_path(str(EXAMPLES / "validation.py"), run_name="__main__")
-    rows = capsys.readouterr().out.splitlines()
-    assert "| CL_alpha | 4.638 | 4.814 |  | 4.814 |" in rows
-    assert sorted(path.name for path in tmp_path.iterdir()) == [
-        "validation_B.png", "validation_E.png",
-    ]  # fmt: skip
-
-
 def test_the_tail_of_chapter_6s_program_acts_on_rates_and_flow(ibis_tail):
     """Collocation reads the rates, shooting the flow; the tailless bird's are none of them."""
     program = runpy.run_path(str(EXAMPLES / "chapter6.py"))["ProgramTail"]

@@ -1,5 +1,9 @@
 """Measurements and independent computations, and how far the program is from them."""
 
+import runpy
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -151,3 +155,13 @@ def test_growing_lift_is_nothing_new_where_air_forgets():
         PlaneWing.elliptic(2.0, 6.0), np.array([1.0]), CHOICES[QUASI_STEADY]
     )
     assert lift == pytest.approx(1.0, rel=1e-12)
+
+
+def test_the_example_draws_the_cases_that_are_asked_for(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["validation", str(tmp_path), "e", "B"])
+    example = Path(__file__).parents[2] / "examples" / "validation.py"
+    runpy.run_path(str(example), run_name="__main__")
+    rows = capsys.readouterr().out.splitlines()
+    assert "| CL_alpha | 4.638 | 4.814 |  | 4.814 |" in rows
+    drawn = sorted(path.name for path in tmp_path.iterdir())
+    assert drawn == ["validation_B.png", "validation_E.png"]
