@@ -27,16 +27,16 @@ def run(case: str | None, *, as_json: bool) -> None:
     """Compute all experiments, or one, and print measurements and computations side by side."""
     console, progress = output(), Progress(messages())
     chosen = experiments(case)
-    found: list[Comparison] = []
+    found: list[dict[str, object]] = []
     with progress.shown():
         for experiment in chosen:
             progress.line(f"computing case {experiment.case}: {experiment.title}")
             compared = list(experiment.compare())
-            found += compared
+            found += [one.as_object() | {"source": experiment.source} for one in compared]
             if not as_json:
                 _print(console, experiment, compared)
     if as_json:
-        json.dump([one.as_object() for one in found], sys.stdout, indent=2, allow_nan=False)
+        json.dump(found, sys.stdout, indent=2, allow_nan=False)
         typer.echo()
 
 

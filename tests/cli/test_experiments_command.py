@@ -41,6 +41,7 @@ def test_experiments_are_a_list_for_other_programs(run):
     assert thrust["case"] == "Z"
     assert thrust["quantity"] == "thrust"
     assert (thrust["measured"], thrust["quasi-steady"], thrust["unsteady"]) == (1.5, 2.0, 1.6)
+    assert thrust["source"] == "A. Nobody 1900"
     assert thrust["others"] == {"a rival": 0.2}
     assert power["quasi-steady"] is None
     assert power["failure"] == "it fell."

@@ -6,6 +6,7 @@ import pytest
 import birdmb
 from birdmb import PlaneWing, WingMotion, moving_wing_loads
 from birdmb.aerodynamics.wake_lags import BOUND_RATES, BOUND_SHARES
+from birdmb.orbits.trigonometric import interpolated
 from birdmb.studies.experiments.thin_airfoil import OscillatingSection, wagner_function
 from birdmb.studies.flight_regime import wake_deficiency
 
@@ -147,41 +148,58 @@ def test_refined_elements_lags_and_instants_change_little():
     wing = PlaneWing((0.0, 0.4, 0.7), (0.2, 0.18, 0.03))
     motion = WingMotion(4.0, pitch=[0.05, 0.2], flap=[0.1, -0.6j])
     coarse = moving_wing_loads(wing, motion, speed=9.0)
-    fine = moving_wing_loads(wing, motion, speed=9.0, elements=64, wake_points=24, instants=193)
+    fine = moving_wing_loads(wing, motion, speed=9.0, elements=64, wake_points=12, instants=161)
     for name in ("mean_lift_coefficient", "mean_thrust_coefficient", "mean_power_coefficient"):
         assert getattr(coarse, name) == pytest.approx(getattr(fine, name), rel=3e-3)
 
 
+@pytest.mark.long
 def test_a_start_ends_in_the_periodic_wake():
     wing = PlaneWing.rectangular(0.6, 0.2)
     motion = WingMotion(3.0, heave=[0.0, 0.05], pitch=[0.0, 0.2j])
-    again = moving_wing_loads(wing, motion, speed=3.0, elements=12)
+    again = moving_wing_loads(wing, motion, speed=3.0, elements=8)
     beats = 30
     times = np.concatenate([[0.0], beats * motion.period + again.times])
-    start = moving_wing_loads(wing, motion, speed=3.0, elements=12, times=times)
+    start = moving_wing_loads(wing, motion, speed=3.0, elements=8, times=times)
     np.testing.assert_allclose(start.lift[1:], again.lift, atol=1e-5 * np.abs(again.lift).max())
+
+
+def robot_and_its_wing():
+    """The robot with its shoulder held to the driver, its wing by sections, and their motion."""
+    robot = birdmb.load_bird("flapping_robot").with_joint("shoulder.flap", mode="prescribed")
+    robot = robot.with_values({"wing.discretisation": 32, "drag.profile_coefficient": 0.0})
+    wing = PlaneWing(
+        [robot.segments["bar"].length * one.position for one in robot.sections],
+        [one.chord for one in robot.sections],
+        [-one.offset - 0.25 * one.chord for one in robot.sections],
+    )
+    driver = robot.joint("shoulder.flap").driver
+    flap = [driver.mean, *(np.array(driver.cosine) - 1j * np.array(driver.sine))]
+    return robot, wing, WingMotion(robot.gait.frequency, flap=flap)
 
 
 def test_the_robot_is_the_same_wing_by_its_sections_as_by_its_topology():
     """To what the flat planform and the orthogonal lifting line differ by at the rounded tips."""
-    robot = birdmb.load_bird("flapping_robot").with_joint("shoulder.flap", mode="prescribed")
-    model = birdmb.RigidModel(robot.with_values({"wing.discretisation": 32}))
-    sections = robot.sections
-    wing = PlaneWing(
-        [robot.segments["bar"].length * one.position for one in sections],
-        [one.chord for one in sections],
-        [-one.offset - 0.25 * one.chord for one in sections],
-        profile_drag=0.02,
-    )
-    driver = robot.joint("shoulder.flap").driver
-    flap = [driver.mean, *(np.array(driver.cosine) - 1j * np.array(driver.sine))]
-    motion = WingMotion(3.3, flap=flap)
+    robot, wing, motion = robot_and_its_wing()
+    model = birdmb.RigidModel(robot)
     loads = moving_wing_loads(
         wing, motion, speed=2.9, wake="quasi-steady", apparent_mass=False, instants=17
     )
     of_robot = [model.loads(t, [2.9, 0.0, 0.0, 0.0]) for t in loads.times]
     lift = [-(one.right.force + one.left.force)[:, 2].sum() for one in of_robot]
     np.testing.assert_allclose(loads.lift, lift, atol=0.01 * np.ptp(lift))
+
+
+def test_the_robot_in_a_tunnel_with_memory_has_the_lift_of_its_wing():
+    """Of the held bird, whose states are the lags of its wake alone."""
+    robot, wing, motion = robot_and_its_wing()
+    remembering = robot.with_values({"air.wake": "unsteady"})
+    held = birdmb.MultibodyModel(remembering, motion="held", body_state=[2.9, 0.0, 0.0, 0.0])
+    beat = birdmb.find_limit_cycle(held).beat
+    of_robot = -2.0 * beat.loads_along.stack.right.force[:, :, 2].sum(axis=1)
+    loads = moving_wing_loads(wing, motion, speed=2.9)
+    lift = interpolated(loads.lift, beat.times / robot.period)
+    np.testing.assert_allclose(lift, of_robot, atol=0.004 * np.abs(lift).max())
 
 
 @pytest.mark.parametrize(
