@@ -10,9 +10,9 @@ import numpy.typing as npt
 
 from birdmb._typing import FloatArray
 from birdmb.errors import ArgumentError
-from birdmb.studies.moving_wing.instants import InstantLoads, MovingWing
 from birdmb.studies.moving_wing.memory import lags_of_start, periodic_lags
 from birdmb.studies.moving_wing.motion import WingMotion
+from birdmb.studies.moving_wing.moving import InstantLoads, MovingWing
 from birdmb.studies.moving_wing.plane_wing import PlaneWing
 
 Wake = Literal["quasi-steady", "unsteady"]

@@ -67,11 +67,6 @@ class WingMotion:
         return 1.0 / self.frequency
 
     @property
-    def flaps(self) -> bool:
-        """Whether the angle of flapping changes."""
-        return any(self.flap[1:])
-
-    @property
     def highest_harmonic(self) -> int:
         """Order of the last term of the longest series."""
         return max(len(self.heave), len(self.pitch), len(self.flap)) - 1
