@@ -36,7 +36,7 @@ def test_scherers_wing():
     assert errors.computed[UNSTEADY] < 0.046
     assert errors.computed[UNSTEADY] < errors.computed[WITH_APPARENT_MASS]
     assert errors.computed[WITH_APPARENT_MASS] < errors.computed[QUASI_STEADY]
-    # Ahead by more than 40 degrees the flow is attached, and most are within 0.02 of the markers.
+    # At smaller leads the incidence is beyond what attached flow can bear.
     off = [abs(one.computed[UNSTEADY] - one.measured) for one in markers[3:]]
     assert max(off) < 0.025
 
