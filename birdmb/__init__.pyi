@@ -43,6 +43,7 @@ from .studies import (
     tunnel_and_free_flight,
 )
 from .studies.branch import bird_branch
+from .studies.moving_wing import MovingWingLoads, PlaneWing, WingMotion, moving_wing_loads
 from .studies.scaling import ScaledBird, scale_bird
 from .studies.stability_opening import stability_openings
 from .studies.sweeps import Study, SweepError, Trimming, sweep
@@ -68,9 +69,11 @@ __all__ = [
     "LimitCycle",
     "Loads",
     "MemoryEffect",
+    "MovingWingLoads",
     "MultibodyModel",
     "OdeModel",
     "OrbitError",
+    "PlaneWing",
     "RigidModel",
     "ScaledBird",
     "StateError",
@@ -82,6 +85,7 @@ __all__ = [
     "TrimError",
     "Trimming",
     "Validity",
+    "WingMotion",
     "assess_validity",
     "bird_branch",
     "bird_from_morphology",
@@ -97,6 +101,7 @@ __all__ = [
     "load_branch",
     "memory_effect",
     "mode_disturbance",
+    "moving_wing_loads",
     "parameter_study",
     "perturbed_flight",
     "perturbed_response",

@@ -28,7 +28,7 @@ from birdmb.cli.options import (
     Topology,
     number,
 )
-from birdmb.cli.outcome import reported
+from birdmb.cli.outcome import InputError, reported
 from birdmb.cli.study_commands import commands as study_commands
 
 _LARGEST = 1e15  # of all numbers in a topology file
@@ -330,6 +330,7 @@ def schema(
 @app.command(
     epilog="Exit status: 0 all that should agree does; 1 something does not; 2 wrong option; "
     "130 interrupted.\n\nExamples:\n\nbirdmb validate\n\nbirdmb validate --chapter 5 --json"
+    "\n\nbirdmb validate --experiments --case A"
 )
 def validate(
     chapter: Annotated[
@@ -337,6 +338,17 @@ def validate(
         typer.Option(metavar="N", help="This chapter (5) or appendix (A) only."),
     ] = None,
     long: Annotated[bool, typer.Option("--all", help="Those that take minutes, too.")] = False,
+    experiments: Annotated[
+        bool,
+        typer.Option(
+            "--experiments",
+            help="Experiments, exact solutions and other authors' computations instead, with "
+            "quasi-steady and unsteady air (docs/validation.md).",
+        ),
+    ] = False,
+    case: Annotated[
+        str | None, typer.Option(metavar="LETTER", help="This experiment only, such as A.")
+    ] = None,
     json: Json = False,
     markdown: Annotated[
         bool, typer.Option("--markdown", help="Print the tables of docs/thesis.md.")
@@ -345,10 +357,21 @@ def validate(
     """Print what the thesis published against what is computed here, with the command behind it.
 
     Each number passes within its tolerance; else it differs, or the thesis contradicts itself or
-    its own program, with the reason. Takes half a minute, with --all some minutes.
-    `python -m birdmb.reproduction` draws figures and tables.
+    its own program, with the reason. Takes half a minute, with --all some minutes, with
+    --experiments a few. `python -m birdmb.reproduction` draws figures and tables.
     """
     with reported(as_json=json):
+        if experiments:
+            if chapter is not None or long or markdown:
+                raise InputError("--experiments goes with --case and --json alone.")
+
+            from birdmb.cli.experiments import run as run_experiments  # noqa: PLC0415 - slow
+
+            run_experiments(case, as_json=json)
+            return
+        if case is not None:
+            raise InputError("--case chooses an experiment; give --experiments with it.")
+
         from birdmb.cli.validate import run  # noqa: PLC0415 - slow to import
 
         run(chapter, long=long, as_json=json, as_markdown=markdown)
