@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import lapack
@@ -21,6 +22,8 @@ _EPS = float(np.finfo(float).eps)
 # and the product of a block loses no more digits than its moduli differ by.
 _BLOCK_RATIO = 0.5
 _MOST_SWEEPS = 60
+# Of the bases after a sweep, in units of their size and machine precision.
+_ROUND_OFF = 4.0
 # Subspaces that a sweep moves by less, and no less than the one before, are known to round-off.
 _SETTLED = 1e-8
 # Logarithm of a ratio of two moduli that one sweep tells apart.
@@ -57,9 +60,10 @@ def periodic_multipliers(factors: FloatArray, errors: FloatArray, scale: FloatAr
         forward = backward = np.eye(n)[None]
         borders = [0, n]
     else:
-        forward, borders = _flag(scaled)
+        flag = _flag(scaled)
+        forward, borders = flag.bases, flag.borders
         # Reversed, the transposes start at the end of the orbit: put their points in order again.
-        backward = np.roll(_flag(np.swapaxes(scaled[::-1], 1, 2))[0][::-1], 1, axis=0)
+        backward = np.roll(_flag(np.swapaxes(scaled[::-1], 1, 2)).bases[::-1], 1, axis=0)
     round_off = n * _EPS * np.linalg.norm(scaled, axis=(1, 2))[:, None, None]
 
     values, value_errors = np.empty(n, complex), np.empty(n)
@@ -84,24 +88,57 @@ def periodic_multipliers(factors: FloatArray, errors: FloatArray, scale: FloatAr
     return ordered_spectrum(values, value_errors, left, along, scale)
 
 
-def _flag(factors: FloatArray) -> tuple[FloatArray, list[int]]:
-    """Orthonormal bases (M, n, n) of the dominant directions, and borders of their blocks."""
+def periodic_eigenvalues(every: FloatArray) -> ComplexArray:
+    """Multipliers (n,) alone, from scaled factors (M, n, n), by half of `periodic_multipliers`.
+
+    In the order of the subspaces, which is not quite that of the moduli.
+    """
+    groups = _groups(every)
+    if len(groups) == 1:
+        return np.asarray(np.linalg.eigvals(product(every)), complex)
+    flag = _flag(np.array([product(every[group]) for group in groups]))
+    found = []
+    for first, last in itertools.pairwise(flag.borders):
+        block = flag.turn[first:last, first:last]
+        for triangle in flag.triangles[::-1]:
+            block = block @ triangle[first:last, first:last]
+        found.append(np.linalg.eigvals(block))
+    return np.asarray(np.concatenate(found), complex)
+
+
+@dataclass(frozen=True)
+class _Flag:
+    """Nested subspaces of the fastest growing directions along an orbit.
+
+    Attributes:
+        bases: orthonormal bases (M, n, n) at the starts of the factors, the fastest first.
+        triangles: what the factors are (M, n, n) from one basis to the next.
+        turn: the basis that the last one leads to, in coordinates (n, n) of the first.
+        borders: of blocks of directions that grow alike.
+    """
+
+    bases: FloatArray
+    triangles: FloatArray
+    turn: FloatArray
+    borders: list[int]
+
+
+def _flag(factors: FloatArray) -> _Flag:
     n = len(factors[0])
     # A start in general position: none of its directions may lie in an invariant subspace.
     start = np.linalg.qr(np.random.default_rng(0).standard_normal((n, n)))[0]
-    bases, triangles, end = _sweep(factors, start)
-    start, before = end @ _turned(triangles, start.T @ end), np.inf
+    _, triangles, end = _sweep(factors, start)
+    before = np.inf
     for _ in range(_MOST_SWEEPS):
+        turn, growth = _turned(triangles, start.T @ end)
+        start, borders = end @ turn, _block_borders(growth)
         bases, triangles, end = _sweep(factors, start)
-        stretched = np.abs(np.einsum("kii->ki", triangles))
-        growth = np.log(np.maximum(stretched, np.finfo(float).tiny)).sum(axis=0)
-        borders = _block_borders(growth)
-        turn = np.abs(start.T @ end)
-        moved = max((float(turn[at:, :at].max()) for at in borders[1:-1]), default=0.0)
-        if moved <= n * _EPS or (moved <= _SETTLED and moved > _BLOCK_RATIO * before):
+        left = start.T @ end
+        moved = max((float(np.abs(left[at:, :at]).max()) for at in borders[1:-1]), default=0.0)
+        if moved <= _ROUND_OFF * n * _EPS or (moved <= _SETTLED and moved > _BLOCK_RATIO * before):
             break
-        start, before = end, moved
-    return bases, borders
+        before = moved
+    return _Flag(bases, triangles, left, borders)
 
 
 def _sweep(factors: FloatArray, basis: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -115,8 +152,10 @@ def _sweep(factors: FloatArray, basis: FloatArray) -> tuple[FloatArray, FloatArr
     return bases, np.triu(triangles), basis
 
 
-def _turned(triangles: FloatArray, turn: FloatArray) -> FloatArray:
+def _turned(triangles: FloatArray, turn: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Where more sweeps would turn the basis at the end of one to, within its own coordinates.
+
+    And the logarithms (n,) of what a sweep stretches its directions by, in the mean.
 
     They would see the product of its `triangles` (M, n, n) after `turn` (n, n), from the basis at
     the end to that at the start. Its rows are kept in units of what they are stretched by, so that
@@ -131,11 +170,12 @@ def _turned(triangles: FloatArray, turn: FloatArray) -> FloatArray:
         rows, sizes = rows / norms[:, None], largest + np.log(norms)
     gaps = np.clip(np.diff(sizes), _LOG_WIDEST, -_LOG_WIDEST)
     product = np.exp(np.append(0.0, np.cumsum(gaps)))[:, None] * rows
-    basis = np.eye(len(turn))
+    basis, growth = np.eye(len(turn)), np.zeros(len(turn))
     for _ in range(_MOST_SWEEPS):
         packed, tau, _, _ = lapack.dgeqrf(product @ basis)
+        growth += np.log(np.maximum(np.abs(np.diag(packed)), np.finfo(float).tiny))
         basis = lapack.dorgqr(packed, tau)[0]
-    return basis
+    return basis, growth / _MOST_SWEEPS
 
 
 def _block_borders(growth: FloatArray) -> list[int]:
