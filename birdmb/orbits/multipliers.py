@@ -104,8 +104,9 @@ def eigenvalues_with_errors(
         first_order = numerator / np.abs(overlap)
         left = left / overlap.conj()
         most = _henrici(matrix, float(np.linalg.norm(error)) + solver_error)
-    errors = size * np.minimum(first_order, most)
-    return size * values.astype(complex), errors, right.astype(complex), left.astype(complex)
+    values = np.asarray(size * values, complex)
+    errors: FloatArray = size * np.minimum(first_order, most)
+    return values, errors, right.astype(complex), left.astype(complex)
 
 
 def _henrici(matrix: FloatArray, size: float) -> float:
