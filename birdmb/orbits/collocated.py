@@ -6,13 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from birdmb._typing import FloatArray
-from birdmb.orbits.collocation import Collocated, CollocationEquations, more_nodes
+from birdmb._typing import ComplexArray, FloatArray
+from birdmb.orbits.collocation import CollocationEquations
+from birdmb.orbits.enough_nodes import Collocated, more_nodes
 from birdmb.orbits.linearisation import trivial_mode
 from birdmb.orbits.multipliers import Spectrum, paired_distances, product
-from birdmb.orbits.periodic import periodic_multipliers
+from birdmb.orbits.periodic import periodic_eigenvalues, periodic_multipliers
 from birdmb.orbits.result import FloquetResult
-from birdmb.orbits.variational import flow_jacobian_errors, flow_jacobians
+from birdmb.orbits.variational import flow_jacobians
 
 # The finer multipliers are better, not exact.
 _ERROR_PER_DIFFERENCE = 3.0
@@ -25,10 +26,17 @@ _MOST_INSTANTS = 1025
 
 
 @dataclass(frozen=True)
-class _Linearised:
+class _Multipliers:
     equations: CollocationEquations
     u: FloatArray
     rate_jacobians: FloatArray
+    multipliers: ComplexArray
+
+
+@dataclass(frozen=True)
+class _Linearised:
+    equations: CollocationEquations
+    u: FloatArray
     factors: FloatArray
     spectrum: Spectrum
 
@@ -54,24 +62,22 @@ def linearise_collocated(
     """
     at = _linearised(found.equations, found.u, rate_jacobians)
     # Of the finest one only the multipliers count, not their errors.
-    finer = _linearised(found.finer, found.finer_u, with_errors=False)
-    errors = _errors(at.spectrum, finer.spectrum)
+    finer = _multipliers(found.finer, found.finer_u)
+    errors = _errors(at.spectrum, finer.multipliers)
     good = _GOOD_PER_ACCURACY * accuracy
     while not _relative(at.spectrum, errors) <= good:
         if more_nodes(finer.equations.nodes) > _MOST_INSTANTS:
             break
-        finest = _linearised(*_on_more(finer), with_errors=False)
-        finer = _linearised(finer.equations, finer.u, finer.rate_jacobians)
-        better = _errors(finer.spectrum, finest.spectrum)
-        if not _relative(finer.spectrum, better) < _FALLING * _relative(at.spectrum, errors):
+        finest = _multipliers(*_on_more(finer))
+        better = _linearised(finer.equations, finer.u, finer.rate_jacobians)
+        fewer = _errors(better.spectrum, finest.multipliers)
+        if not _relative(better.spectrum, fewer) < _FALLING * _relative(at.spectrum, errors):
             break
-        at, finer, errors = finer, finest, better
+        at, finer, errors = better, finest, fewer
     if at.equations is not found.equations:
         # Of one orbit at different instants, its own error does not show.
-        rough = _linearised(
-            *found.equations.on_nodes(at.equations.nodes, found.u), with_errors=False
-        )
-        errors = errors + paired_distances(at.spectrum.multipliers, rough.spectrum.multipliers)
+        rough = _multipliers(*found.equations.on_nodes(at.equations.nodes, found.u))
+        errors = errors + paired_distances(at.spectrum.multipliers, rough.multipliers)
     equations, spectrum = at.equations, at.spectrum
     points, period = equations.unpack(at.u)
     scale = equations.rhs.scale
@@ -101,36 +107,35 @@ def linearise_collocated(
 
 
 def _linearised(
-    equations: CollocationEquations,
-    u: FloatArray,
-    jacobians: FloatArray | None = None,
-    *,
-    with_errors: bool = True,
+    equations: CollocationEquations, u: FloatArray, jacobians: FloatArray | None
 ) -> _Linearised:
     points, period = equations.unpack(u)
     if jacobians is None:
         jacobians = equations.rate_jacobians(u)
     rhs = equations.rhs
     factors = flow_jacobians(period * jacobians)
-    factor_errors = np.zeros_like(factors)
-    if with_errors:
-        factor_errors = flow_jacobian_errors(period * jacobians, factors)
-        errors = rhs.jacobian_errors(equations.times(period), points, jacobians)
-        # To first order an error of the derivative acts for the length of an interval.
-        size = np.maximum(np.abs(factors), np.eye(len(rhs.scale)))
-        step = period / equations.nodes
-        factor_errors = factor_errors + step * 0.5 * (size @ errors + errors @ size)
+    errors = rhs.jacobian_errors(equations.times(period), points, jacobians)
+    # To first order an error of the derivative acts for the length of an interval.
+    size = np.maximum(np.abs(factors), np.eye(len(rhs.scale)))
+    factor_errors = period / equations.nodes * 0.5 * (size @ errors + errors @ size)
     units = np.divide.outer(rhs.scale, rhs.scale)
     spectrum = periodic_multipliers(factors * units, factor_errors * units, rhs.scale)
-    return _Linearised(equations, u, jacobians, factors * units, spectrum)
+    return _Linearised(equations, u, factors * units, spectrum)
 
 
-def _on_more(at: _Linearised) -> tuple[CollocationEquations, FloatArray]:
+def _multipliers(equations: CollocationEquations, u: FloatArray) -> _Multipliers:
+    _, period = equations.unpack(u)
+    jacobians = equations.rate_jacobians(u)
+    factors = flow_jacobians(period * jacobians)
+    return _Multipliers(equations, u, jacobians, periodic_eigenvalues(factors))
+
+
+def _on_more(at: _Multipliers) -> tuple[CollocationEquations, FloatArray]:
     return at.equations.on_nodes(more_nodes(at.equations.nodes), at.u)
 
 
-def _errors(spectrum: Spectrum, finer: Spectrum) -> FloatArray:
-    apart = paired_distances(spectrum.multipliers, finer.multipliers)
+def _errors(spectrum: Spectrum, finer: ComplexArray) -> FloatArray:
+    apart = paired_distances(spectrum.multipliers, finer)
     # Of one that happens to be right by chance, the others tell.
     size = np.maximum(np.abs(spectrum.multipliers), np.finfo(float).tiny)
     typical = size * float((apart / np.maximum(size, 1.0)).max())
