@@ -17,7 +17,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = _options().parse_args(arguments)
     if options.list:
         for name, drawing in DRAWINGS.items():
-            print(f"{name:12} {drawing.title}")
+            print(f"{name:20} {drawing.title}")
         return 0
     try:
         names = list(_names(options.figure, options.table))

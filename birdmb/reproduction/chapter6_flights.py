@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -40,9 +41,14 @@ SHIPPED: Values = {}
 
 
 def flight_of_table_6_2(row: str, values: Values = SHIPPED) -> Trim:
-    """A flight of the table, levelled by the roll offset."""
+    """A flight of the table, levelled by the roll offset; kept for the figures that share it."""
+    return _levelled(row, tuple(sorted(values.items())))
+
+
+@cache
+def _levelled(row: str, values: tuple[tuple[str, object], ...]) -> Trim:
     gait, _ = TABLE_6_2[row]
-    return trim_flight(with_gait(*gait, values), TRIM)
+    return trim_flight(with_gait(*gait, dict(values)), TRIM)
 
 
 def tail_moment(cycle: FlightCycle) -> FloatArray:

@@ -89,6 +89,7 @@ def sphere_after_a_period(out: Path, coarse: bool) -> None:
             axes.plot(*np.array([-vector, vector]).T, "k--", lw=1, label=f"Λ = {value.real:.3f}")
     axes.set(xlabel="δx", ylabel="δy", zlabel="δz")
     axes.set_aspect("equal")
+    axes.set_zticks([])
     # Nearly along the axis that has all but vanished: the rest is a disc.
     towards = left[:, 2] + 0.5 * left[:, 1]
     azimuth = np.degrees(np.arctan2(towards[1], towards[0]))

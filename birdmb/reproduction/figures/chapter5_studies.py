@@ -12,7 +12,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
-from birdmb.figures import plot_multiplier_locus
 from birdmb.models import RigidModel
 from birdmb.reproduction.chapter5 import margin_study
 from birdmb.reproduction.figures.drawing import Drawing, keep_figure
@@ -55,8 +54,27 @@ def amplitude(out: Path, coarse: bool) -> None:
 
 
 def amplitude_locus(out: Path, coarse: bool) -> None:
-    """Draw the locus of the multipliers over the flap's amplitude."""
-    keep_figure(out, "figure 5.11", plot_multiplier_locus(_over_amplitude(coarse)))
+    """Draw the locus of the multipliers over the flap's amplitude, whole and each by itself."""
+    study = _over_amplitude(coarse)
+    over = study[FLAP_AMPLITUDE].values
+    values = study["multiplier_real"].values + 1j * study["multiplier_imag"].values
+    figure = Figure(figsize=(11, 4.4), layout="constrained")
+    whole, near = figure.subfigures(1, 2, squeeze=False, width_ratios=(1, 1.5))[0]
+    plane = whole.subplots()
+    phase = np.linspace(0.0, 2 * np.pi, 181)
+    plane.plot(np.cos(phase), np.sin(phase), color="0.6", lw=1)
+    colours = np.broadcast_to(over[:, None], values.shape)
+    plane.scatter(values.real, values.imag, c=colours, s=16)
+    plane.set(xlabel="Re Λ", ylabel="Im Λ", aspect="equal", xlim=(-1.1, 1.6))
+    panels = near.subplots(1, 3)
+    upper = np.where(values.imag > 0, values, 0.0).sum(axis=1)
+    real = values[:, [0, -1]]
+    for axes, each, name in zip(panels, (real[:, 0], upper, real[:, 1]), "124", strict=True):
+        shown = axes.scatter(each.real, each.imag, c=over, s=22)
+        axes.set(xlabel="Re Λ", title=f"Λ{name}")
+        axes.locator_params(nbins=3)
+    near.colorbar(shown, ax=panels, label="amplitude of the flap (°)")
+    keep_figure(out, "figure 5.11", figure)
 
 
 def margin(out: Path, coarse: bool) -> None:
