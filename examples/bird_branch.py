@@ -139,7 +139,7 @@ def main(options: argparse.Namespace) -> None:
     elif options.refined:
         refined(bird)
     elif options.coarse:
-        whole_branch(bird.with_values({"wing.discretisation": 4}), options.directory, 55.0)
+        whole_branch(bird.with_values({"wing.discretisation": 4}), options.directory, 58.0)
     else:
         whole_branch(bird, options.directory, 2.0)
 

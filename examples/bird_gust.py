@@ -28,7 +28,9 @@ def main(directory: Path, *, coarse: bool) -> None:
         cycle = birdmb.find_limit_cycle(model)
         before = np.nan
         for strength in (2.0, 1.0) if coarse else (2.0, 1.0, 0.5, 0.25):
-            flight = birdmb.gust_response(cycle, birdmb.GaussianGust(vertical=strength), periods=10)
+            flight = birdmb.gust_response(
+                cycle, birdmb.GaussianGust(vertical=strength), periods=2 if coarse else 10
+            )
             size, apart = (
                 float(np.abs(what / cycle.state_scale).max())
                 for what in (flight.deviation, flight.deviation - flight.linear)
