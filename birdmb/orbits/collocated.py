@@ -23,6 +23,10 @@ _GOOD_PER_ACCURACY = 10.0
 # More instants that leave more than this part of the error meet another one, as of differences.
 _FALLING = 0.5
 _MOST_INSTANTS = 1025
+# Derivatives that miss more than this between nodes make growth of decay.
+_MOST_UNSEEN = 1.0
+# Larger errors say nothing of what more instants will make of them.
+_KNOWN = 0.1
 
 
 @dataclass(frozen=True)
@@ -39,6 +43,7 @@ class _Linearised:
     u: FloatArray
     factors: FloatArray
     spectrum: Spectrum
+    unseen: float
 
 
 def linearise_collocated(
@@ -63,17 +68,18 @@ def linearise_collocated(
     at = _linearised(found.equations, found.u, rate_jacobians)
     # Of the finest one only the multipliers count, not their errors.
     finer = _multipliers(found.finer, found.finer_u)
-    errors = _errors(at.spectrum, finer.multipliers)
+    errors = _errors(at, finer.multipliers)
     good = _GOOD_PER_ACCURACY * accuracy
     while not _relative(at.spectrum, errors) <= good:
         if more_nodes(finer.equations.nodes) > _MOST_INSTANTS:
             break
         finest = _multipliers(*_on_more(finer))
         better = _linearised(finer.equations, finer.u, finer.rate_jacobians)
-        fewer = _errors(better.spectrum, finest.multipliers)
-        if not _relative(better.spectrum, fewer) < _FALLING * _relative(at.spectrum, errors):
+        left = _errors(better, finest.multipliers)
+        before = _relative(at.spectrum, errors)
+        if before < _KNOWN and not _relative(better.spectrum, left) < _FALLING * before:
             break
-        at, finer, errors = better, finest, fewer
+        at, finer, errors = better, finest, left
     if at.equations is not found.equations:
         # Of one orbit at different instants, its own error does not show.
         rough = _multipliers(*found.equations.on_nodes(at.equations.nodes, found.u))
@@ -120,7 +126,7 @@ def _linearised(
     factor_errors = period / equations.nodes * 0.5 * (size @ errors + errors @ size)
     units = np.divide.outer(rhs.scale, rhs.scale)
     spectrum = periodic_multipliers(factors * units, factor_errors * units, rhs.scale)
-    return _Linearised(equations, u, factors * units, spectrum)
+    return _Linearised(equations, u, factors * units, spectrum, _unseen(period * jacobians))
 
 
 def _multipliers(equations: CollocationEquations, u: FloatArray) -> _Multipliers:
@@ -134,12 +140,25 @@ def _on_more(at: _Multipliers) -> tuple[CollocationEquations, FloatArray]:
     return at.equations.on_nodes(more_nodes(at.equations.nodes), at.u)
 
 
-def _errors(spectrum: Spectrum, finer: ComplexArray) -> FloatArray:
+def _errors(at: _Linearised, finer: ComplexArray) -> FloatArray:
+    spectrum = at.spectrum
     apart = paired_distances(spectrum.multipliers, finer)
     # Of one that happens to be right by chance, the others tell.
     size = np.maximum(np.abs(spectrum.multipliers), np.finfo(float).tiny)
     typical = size * float((apart / np.maximum(size, 1.0)).max())
-    return np.asarray(spectrum.errors + _ERROR_PER_DIFFERENCE * np.maximum(apart, typical))
+    errors = np.asarray(spectrum.errors + _ERROR_PER_DIFFERENCE * np.maximum(apart, typical))
+    # Two wrong interpolants may agree.
+    return errors if at.unseen < _MOST_UNSEEN else np.maximum(errors, at.unseen)
+
+
+def _unseen(rate_jacobians: FloatArray) -> float:
+    """By how much the derivatives (N, n, n) by phase are off between nodes, per interval.
+
+    About the largest amplitude of their two highest harmonics.
+    """
+    nodes = len(rate_jacobians)
+    highest = np.abs(np.fft.rfft(rate_jacobians, axis=0)[-2:])
+    return float(highest.sum(axis=2).max()) * 2.0 / nodes**2
 
 
 def _relative(spectrum: Spectrum, errors: FloatArray) -> float:

@@ -2,8 +2,8 @@
 
 The lowest harmonics of a solution are those of the equations on fewer nodes, of which there is a
 factorisation. In the others differentiation prevails, and the derivative of the rates counts by its
-mean. Both together precondition GMRES (two grids: Canuto, Hussaini, Quarteroni & Zang, Spectral
-Methods: Fundamentals in Single Domains, 2006, chapter 4).
+mean. Both together precondition GMRES (Saad & Schultz 1986; preconditioners of spectral methods:
+Canuto, Hussaini, Quarteroni & Zang, Spectral Methods: Fundamentals in Single Domains, 2006).
 """
 
 from __future__ import annotations

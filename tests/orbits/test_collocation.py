@@ -184,6 +184,32 @@ def test_more_nodes_bring_the_error_down_exponentially():
     assert errors[2] < errors[1] / 100
 
 
+@pytest.mark.parametrize(("decay", "sharpness"), [(2e3, 100), (5e3, 400), (2e5, 300)])
+def test_stiff_rates_that_nodes_miss_get_more_instants(decay, sharpness):
+    """A turning frame in which one direction decays in pulses, the other by exp(-0.1) a turn.
+
+    On 25 nodes and on 37 the interpolated rates grow somewhere, and multipliers are of any size.
+    """
+
+    def frame(t):
+        c, s = np.cos(2 * np.pi * t), np.sin(2 * np.pi * t)
+        return np.array([[c, -s], [s, c]])
+
+    def matrix(t, _x=None):
+        rates = np.diag([-decay / (1 + sharpness * np.sin(np.pi * t) ** 2), -0.1])
+        turning = 2 * np.pi * np.array([[0.0, -1.0], [1.0, 0.0]])
+        return turning + frame(t) @ rates @ frame(t).T
+
+    def rhs(t, x):
+        return matrix(t) @ (x - frame(t)[:, 0]) + 2 * np.pi * frame(t)[:, 1]
+
+    model = OdeModel(rhs, ("x", "y"), period=1.0, jacobian=matrix, guess=[1.0, 0.0])
+    found = collocated(model)
+    assert (np.abs(found.multipliers - [np.exp(-0.1), 0.0]) < found.multiplier_errors + 1e-60).all()
+    assert found.multiplier_errors.max() < 1e-8
+    assert len(found.points) > found.nodes == 25
+
+
 def test_rates_that_are_rougher_than_the_orbit_get_more_instants():
     # x = cos t for any damping; a damping with a sharp peak is seen by the multiplier alone
     def damping(t):
