@@ -64,7 +64,7 @@ def test_a_callback_never_raises(handled, inside):
             signal.raise_signal(SIGNAL)
         return np.zeros(2)
 
-    callback = carrier.callback(forces, 2)
+    callback = carrier.callback(forces, (2,))
 
     def compiled():
         if not inside:
