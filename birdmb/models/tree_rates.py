@@ -160,7 +160,7 @@ class TreeRates:
                 )
             )
             of.append(alike.of)
-        return Shapes((stacks[0], stacks[-1]), np.stack([of[0], of[-1]]))
+        return Shapes((stacks[0], stacks[-1]), np.array((of[0], of[-1])))
 
     def _refuse_misplaced(
         self, times: FloatArray, angles: FloatArray, clearance: FloatArray
