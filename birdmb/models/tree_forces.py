@@ -36,7 +36,6 @@ class TreeLoads(NamedTuple):
     forces: FloatArray  # (n,) generalised
     inertia: FloatArray  # (n, n) mass matrix of the air; (0, 0) where it has no memory
     lag_rates: FloatArray  # (L,)
-    clearance: FloatArray  # (2,) m, of right and left wing
 
 
 @kernel
@@ -49,23 +48,21 @@ def tree_loads(
     v: FloatArray,
     lags: FloatArray,
     air: FloatArray,
-) -> TreeLoads:
-    """What acts on the tree at coordinates q and velocities v (n,), and at `lags` (L,).
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Forces, inertia and rates of the lags as in `TreeLoads`, and the wings' `clearance` (2,) m.
 
-    The coordinates of the body are some of `tree_coordinates.COORDINATES`, `air` (3,) m/s is the
-    velocity of the air forwards, to the right and down, seen along the heading. Shapes and drivers
-    are of this instant alone. NaN where q or v is not finite.
+    At coordinates q and velocities v (n,) of the tree, those of the body being some of
+    `tree_coordinates.COORDINATES`, at `lags` (L,) and in air of velocity `air` (3,) m/s forwards,
+    to the right and down, seen along the heading. Shapes and drivers are of this instant alone. NaN
+    where q or v is not finite.
     """
     body, angles = coordinates.size, drivers.angles.shape[1]
     remembers = q.size if lags.size else 0
-    found = TreeLoads(
-        np.full(q.size, np.nan),
-        np.zeros((remembers, remembers)),
-        np.full(lags.size, np.nan),
-        np.zeros(2),
-    )
+    # No named tuple: a signal's handler may raise while numba has Python make one, and it crashes.
+    forces, lag_rates = np.full(q.size, np.nan), np.full(lags.size, np.nan)
+    inertia = np.zeros((remembers, remembers))
     if not (np.isfinite(q).all() and np.isfinite(v).all()):
-        return found
+        return forces, inertia, lag_rates, np.zeros(2)
     place, moves = whole(q[:body], coordinates), whole(v[:body], coordinates)
     twist = space_state(place, moves)[:6].copy()
     seen = place.copy()
@@ -79,26 +76,25 @@ def tree_loads(
         v[joints].reshape(1, -1),
         lags.reshape(1, -1),
     )
-    of_air = air_forces(constants, shapes, motion, drivers.accelerations[0], np.zeros(1, np.int64))
-    loads = of_air.forces
+    found = air_forces(constants, shapes, motion, drivers.accelerations[0], np.zeros(1, np.int64))
+    loads = found.forces
     if lags.size:
-        found.lag_rates[:] = of_air.lag_rates[0]
-        _resist(constants, coordinates, place, moves, of_air, found.inertia)
+        lag_rates[:] = found.lag_rates[0]
+        _resist(constants, coordinates, place, moves, found, inertia)
     wrench = np.zeros(6)
     for b in range(body):
         wrench[constants.links.directions[b]] = loads[0, b]
     on_body = generalised(place, wrench)
     for b in range(body):
-        found.forces[b] = on_body[coordinates[b]]
+        forces[b] = on_body[coordinates[b]]
     torques = loads[0, body:] / constants.links.copies
     torques += spring_torques(
         constants.springs, q[joints] - drivers.angles[0], v[joints] - drivers.rates[0]
     )
-    found.forces[joints] = torques
+    forces[joints] = torques
     if constants.is_mirrored:
-        found.forces[body + angles :] = torques
-    found.clearance[:] = of_air.clearance
-    return found
+        forces[body + angles :] = torques
+    return forces, inertia, lag_rates, found.clearance
 
 
 @kernel
