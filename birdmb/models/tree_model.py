@@ -154,7 +154,7 @@ class TreeModel(BirdModel):
 
     @property
     def integration(self) -> Integration:
-        """Method and steps per beat: as wanted, or as the fastest joint motion needs."""
+        """Method and steps per beat: as wanted, or as the fastest joint or lag needs."""
         # Not a cached property: its lock, taken before the one of the calls, could wait for ever.
         with COMPILED:
             if self._integration is None:
@@ -175,7 +175,7 @@ class TreeModel(BirdModel):
 
     @property
     def integration_method(self) -> Literal["explicit", "implicit"]:
-        """Kind of the integration steps: implicit where joints or hinges are stiff."""
+        """Kind of the integration steps: implicit where joints, hinges or lags are stiff."""
         return self.integration.method
 
     @property
