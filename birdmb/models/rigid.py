@@ -221,7 +221,8 @@ class RigidModel(BirdModel):
         """States (K, n) of those of the body (K, m): with the lags that its motion settles at."""
         if not self.wake.count:
             return body
-        own, states = body.shape[1], np.hstack([body, np.zeros((len(body), self.wake.count))])
+        own, attached = body.shape[1], np.tile(self.wake.attached, (len(body), 1))
+        states = np.hstack([body, attached])
         table, phase = self._table_for(times)
         rates, slopes = self._along(table, phase, times, states, slopes_wanted=True)
         states[:, own:] = self.wake.settled(rates[:, own:], slopes[:, own:, own:])
