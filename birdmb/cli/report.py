@@ -44,6 +44,7 @@ def table_of(title: str, *columns: str, numbers: tuple[int, ...] = ()) -> Table:
         title=title,
         title_justify="left",
         title_style="bold",
+        caption_justify="left",
         box=box.SIMPLE_HEAD,
         show_edge=False,
         pad_edge=False,
@@ -64,9 +65,12 @@ def _orbit(cycle: FlightCycle) -> Table:
     title = f"Orbit at t = {cycle.start_time:g} s, {known}"
     table = table_of(title, "state", "value", "unit", "in degrees", numbers=(1, 3))
     units = cycle.model.state_units
-    for name, value, unit in zip(cycle.state_names, cycle.x0, units, strict=True):
+    moving = cycle.model.motion_state_names
+    for name, value, unit in zip(moving, cycle.x0, units, strict=False):
         degrees = f"{np.degrees(value):.2f} {IN_DEGREES[unit]}" if unit in IN_DEGREES else ""
         table.add_row(name, f"{value:.6f}", unit, degrees)
+    if lags := cycle.model.wake.count:
+        table.caption = f"and {lags} lags of the wake"
     return table
 
 
@@ -76,8 +80,12 @@ def _multipliers(cycle: FlightCycle) -> Table:
     if in_space:
         columns.append("mode")
     table = table_of("Floquet multipliers", *columns, numbers=(0, 1, 2, 3))
+    fading = [i for i, mode in enumerate(cycle.flight_modes) if mode.name == "wake"]
     for i, (value, error) in enumerate(zip(cycle.multipliers, cycle.verdict_errors, strict=True)):
         mode = cycle.flight_modes[i]
+        # Of the wake's the largest tells of all, as long as they fade.
+        if i in fading[1:] and abs(value) + error < 1.0:
+            continue
         table.add_row(
             _number(value.real),
             _number(value.imag) if value.imag else "",
@@ -86,6 +94,11 @@ def _multipliers(cycle: FlightCycle) -> Table:
             growth(cycle, i).partition(" (")[0] if in_space else growth(cycle, i),
             *([mode.name or mode.plane] if in_space else []),
             style="red" if abs(value) - error > 1 else None,
+        )
+    if len(fading) > 1:
+        table.caption = (
+            f"the wake's memory has {len(fading)} of them, of which the largest is shown: "
+            f"{_number(abs(cycle.multipliers[fading[0]]))}"
         )
     return table
 

@@ -101,7 +101,7 @@ def announce(model: RigidModel | MultibodyModel, name: str, progress: Progress) 
 
 def deflations_for(model: RigidModel | MultibodyModel) -> int:
     """How many deflated searches to make: fewer of a bird of which each takes a quarter second."""
-    return 12 if len(model.state_names) <= _FEW_STATES else 4
+    return 12 if len(model.motion_state_names) <= _FEW_STATES else 4
 
 
 def told(progress: Progress) -> Any:
@@ -246,7 +246,7 @@ def other_flights(
     model: RigidModel | MultibodyModel, cycle: FlightCycle, progress: Progress
 ) -> list[FlightCycle] | None:
     """Other flights of the same bird that a short look finds; `None` if it would not be short."""
-    if len(model.state_names) > _FEW_STATES or cycle.method != "collocation":
+    if len(model.motion_state_names) > _FEW_STATES or cycle.method != "collocation":
         return None
     progress.doing("looking for other flights")
     try:

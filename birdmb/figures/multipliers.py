@@ -72,14 +72,15 @@ def draw_labelled_multipliers(axes: Axes, cycle: FlightCycle) -> None:
 def _labels(cycle: FlightCycle) -> list[tuple[str, complex, bool, bool]]:
     """Text, place, whether unstable and whether to stand below, of each label.
 
-    One for a conjugate pair, one for all near zero; those on the real axis alternate.
+    One for a conjugate pair, one for all near zero; those on the real axis alternate. Modes of the
+    wake have none.
     """
     labels = []
     below = True
     moduli = np.abs(cycle.multipliers)
     tiny = moduli[moduli < _CROWDED]
     for i, (value, modulus) in enumerate(zip(cycle.multipliers, moduli, strict=True)):
-        if modulus < _CROWDED or value.imag < 0:
+        if modulus < _CROWDED or value.imag < 0 or cycle.flight_modes[i].name == "wake":
             continue
         does = "doubles" if modulus > 1 else "halves"
         text = f"|Λ| = {modulus:.3f}\n{does} in {cycle.doubling_times[i]:.2g} s"

@@ -30,8 +30,11 @@ _ORDER_OF_BODY = ("u", "w", "theta", "q")
 
 
 def plot_states(cycle: FlightCycle) -> Figure:
-    """Draw the states over a beat, angles in degrees; compliant joints with their drivers."""
-    rows = len(cycle.state_names) // 2
+    """Draw the states over a beat, angles in degrees; compliant joints with their drivers.
+
+    Those of the air's memory are left out.
+    """
+    rows = len(cycle.model.motion_state_names) // 2
     figure = Figure(figsize=(8.5, 0.7 + 1.75 * rows), layout="constrained")
     draw_states(figure, cycle)
     figure.suptitle(f"{title_of(cycle)}: states over a beat", fontsize="medium")
@@ -41,7 +44,8 @@ def plot_states(cycle: FlightCycle) -> Figure:
 def draw_states(figure: Figure | SubFigure, cycle: FlightCycle) -> None:
     """Draw the states into a figure, in two columns."""
     units = cycle.model.state_units
-    names = [*_ORDER_OF_BODY, *(n for n in cycle.state_names if n not in _ORDER_OF_BODY)]
+    moving = cycle.model.motion_state_names
+    names = [*_ORDER_OF_BODY, *(name for name in moving if name not in _ORDER_OF_BODY)]
     axes = figure.subplots(len(names) // 2, 2, sharex=True).ravel()
     for name, ax in zip(names, axes, strict=True):
         at = cycle.state_names.index(name)

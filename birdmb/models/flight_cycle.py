@@ -254,7 +254,7 @@ class FlightCycle(SteppedCycle):
     @cached_property
     def flight_modes(self) -> tuple[FlightMode, ...]:
         """The modes, by plane and name, in the order of the multipliers."""
-        return flight_modes(self, self.model.motion, self.model.mirror)
+        return flight_modes(self, self.model.motion, self.model.mirror, self.model.wake.count)
 
     @property
     def sort_key(self) -> tuple[float, ...]:

@@ -15,7 +15,7 @@ Plane = Literal["longitudinal", "lateral", "coupled"]
 
 # Of a symmetric flight the shares are 0 and 1 to round-off.
 _COUPLED = 0.01
-_OF_THE_BODY = 0.5
+_MOST = 0.5
 _PHUGOID = ("u", "theta")
 
 
@@ -26,7 +26,8 @@ class FlightMode:
     Attributes:
         plane: "longitudinal", "lateral", or "coupled" where neither has 99 % of it.
         name: "roll", "spiral", "Dutch roll", "lateral phugoid", "phugoid" or "short period" where
-            it is what these words mean, else empty.
+            it is what these words mean, "wake" where it is mostly the air's memory that fades, else
+            empty.
         multiplier: Floquet multiplier.
         error: bound of its error.
         doubling_time: time in s in which it doubles or halves.
@@ -41,24 +42,26 @@ class FlightMode:
     participation: dict[str, float]
 
 
-def flight_modes(cycle: LimitCycle, motion: Motion, mirror: Mirror) -> tuple[FlightMode, ...]:
+def flight_modes(
+    cycle: LimitCycle, motion: Motion, mirror: Mirror, lags: int
+) -> tuple[FlightMode, ...]:
     """The modes of a limit cycle, in the order of its multipliers.
 
-    The first states of the cycle are those of the body in `motion`; `mirror` makes a state its
-    mirror image. What a mode shares with its mirror image is longitudinal, what changes sign is
-    lateral. Lateral modes: of complex pairs
-    the one that oscillates fastest is the Dutch roll, another one the lateral phugoid; of two or
-    more real multipliers the largest one is the spiral mode, that of the others in which p has the
-    largest share the roll mode. Longitudinal
-    modes: of complex pairs the one in which speed and pitch angle have the larger share is the
-    phugoid, the other one the short period. Real longitudinal modes, those of joints and coupled
-    ones have no names.
+    The first states of the cycle are those of the body in `motion`, the last `lags` those of the
+    air's memory; `mirror` makes a state its mirror image. What a mode shares with its mirror image
+    is longitudinal, what changes sign is lateral. Lateral modes: of complex pairs the one that
+    oscillates fastest is the Dutch roll, another one the lateral phugoid; of two or more real
+    multipliers the largest one is the spiral mode, that of the others in which p has the largest
+    share the roll mode. Longitudinal modes: of complex pairs the one in which speed and pitch angle
+    have the larger share is the phugoid, the other one the short period. Real longitudinal modes,
+    those of joints and coupled ones have no names.
     """
     shares, count = cycle.participation, len(motion.states)
     lateral = _lateral_shares(cycle, mirror)
     planes = [_plane(float(share)) for share in lateral]
-    of_body = shares[:count].sum(axis=0) > _OF_THE_BODY
-    names = [""] * len(planes)
+    of_body = shares[:count].sum(axis=0) > _MOST
+    of_wake = shares[len(shares) - lags :].sum(axis=0) > _MOST
+    names = ["wake" if wake else "" for wake in of_wake]
     for plane, named in (("lateral", _lateral), ("longitudinal", _longitudinal)):
         chosen = [k for k, each in enumerate(planes) if each == plane and of_body[k]]
         for k, name in named(cycle, motion, chosen).items():

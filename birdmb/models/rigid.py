@@ -123,7 +123,8 @@ class RigidModel(BirdModel):
         if self._steps_wanted is not None:
             return self._steps_wanted
         steps = STEPS_PER_BEAT
-        while 2 * steps <= _MOST_STEPS and self._error_of(steps) > _TOLERANCE:
+        # Written so that a flight that diverges asks for more.
+        while 2 * steps <= _MOST_STEPS and not self._error_of(steps) <= _TOLERANCE:
             steps *= 2
         return steps
 
@@ -137,10 +138,11 @@ class RigidModel(BirdModel):
         right = every_second(fine.right)
         left = right if fine.left is fine.right else every_second(fine.left)
         coarse = RigidTable(right, left, self._wakes(right, left), every_second_lag(fine.lags))
+        start = self.initial_guess()
         ends = [
-            integrate_rigid(
-                *table, self._first_guess, period / n, np.zeros((2 * n + 1, 3)), *self._constants
-            )[0][-1]
+            integrate_rigid(*table, start, period / n, np.zeros((2 * n + 1, 3)), *self._constants)[
+                0
+            ][-1]
             for table, n in ((fine, steps), (coarse, steps // 2))
         ]
         return float(np.abs((ends[0] - ends[1]) / self.state_scale).max()) / (2**_ORDER - 1)

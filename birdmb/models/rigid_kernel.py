@@ -199,7 +199,10 @@ def _accelerate_with_air(
                 mass[a, b] += body.inertia[i - 3, j - 3]
         if i < 3:
             mass[a, a] += body.mass
-    found = np.linalg.solve(mass, right)
+    found = np.full(right.shape, np.nan)
+    # The solver refuses what is not finite; a flow that diverges is told by whoever follows it.
+    if np.isfinite(np.sum(right)):
+        found[:] = np.linalg.solve(mass, right)
     for a in range(size):
         rates[moving[a]], jacobian[moving[a]] = found[a, 0], found[a, 1:]
 

@@ -155,6 +155,11 @@ class BirdModel(ABC):
         elements = place_elements(shape_at(shapes, 0), self.wing.root)
         return float(2.0 * np.sum(elements.chord * elements.width))
 
+    @property
+    def motion_state_names(self) -> tuple[str, ...]:
+        """Names of the states that tell how the bird moves; those of the air's memory follow."""
+        return self.state_names[: len(self.state_names) - self.wake.count]
+
     def body_in_space(self, states: FloatArray) -> FloatArray:
         """The body's states in space (K, 8), as `SPACE_STATES`, of states (K, n)."""
         return self.motion.in_space(states)
