@@ -1,7 +1,8 @@
 """Circulations of wings whose air remembers, and how their lags change (compiled kernels).
 
-The lags and the equations are those of `birdmb.aerodynamics.wake_lags`. Wings are the right one, or
-both, the left one mirrored onto the right side: S sides with N elements each, M = S N in all.
+The lags and the equations are those of `birdmb.aerodynamics.wake_lags`, and, where flow separates,
+of `birdmb.aerodynamics.separation`. Wings are the right one, or both, the left one mirrored onto
+the right side: S sides with N elements each, M = S N in all. Of lags there are J kinds, 4 or 5.
 Arrays with a last axis of 1 + D hold a value and its derivatives, those by the lags last.
 """
 
@@ -14,6 +15,7 @@ import numpy as np
 from birdmb._kernels import kernel
 from birdmb._typing import FloatArray
 from birdmb.aerodynamics.elements import Elements, downwash_share
+from birdmb.aerodynamics.separation import Separation, no_separation, separated_flow
 from birdmb.aerodynamics.wake_lags import (
     AT_ONCE,
     BOUND_RATES,
@@ -42,7 +44,8 @@ class Unsteady(NamedTuple):
     circulation: FloatArray  # (M, 1 + D) m2/s, bound
     trailing: FloatArray  # (M, 1 + D) m2/s, of the trailing vortices as they act on the wings
     shed: FloatArray  # (M, 1 + D) m/s, downwash of the shed vortices
-    lag_rates: FloatArray  # (S 4 K, 1 + D)
+    lag_rates: FloatArray  # (S J K, 1 + D)
+    section: FloatArray  # (M, 3, 1 + D) of `Separation`; empty where no flow separates
 
 
 @kernel
@@ -109,7 +112,7 @@ def unsteady_circulations(
     """Circulations of M elements and the rates of the lags.
 
     `driving` (M, 1 + d) m/s are the normal velocities at the three-quarter-chord points without
-    downwash, `speed` (M, 1 + d) m/s those along the stream, `states` (S 4 K,) the lags, side by
+    downwash, `speed` (M, 1 + d) m/s those along the stream, `states` (S J K,) the lags, side by
     side, kind by kind (`wake_lags.KINDS`), each from the root outwards. D is d, and with
     `slopes_wanted` the number of lags more.
     """
@@ -122,6 +125,11 @@ def unsteady_circulations(
     for i in range(circulation.shape[0]):
         circulation[i] = system.per_velocity[i] * lifting[i]
     at_once = _missed(lags, circulation)
+    separation = no_separation()
+    separates = lags.separation.of.size > 0
+    if separates:
+        separation = _separation(system, lags, lifting, speed, states)
+        circulation -= separation.lost
     trailing += at_once
     normal -= system.downwash @ at_once
     rates = _lag_rates(system, lags, normal, circulation, speed, states)
@@ -130,7 +138,49 @@ def unsteady_circulations(
         fading = _lag_rates(system, lags, nothing, nothing, still, np.ones(states.size))
         for i in range(states.size):
             rates[i, given + i] += fading[i, 0]
-    return Unsteady(circulation, trailing, normal - lifting, rates)
+    if separates:
+        _put_shares(lags, separation.rates, rates)
+    return Unsteady(circulation, trailing, normal - lifting, rates, separation.section)
+
+
+@kernel
+def _kinds(lags: WakeLags) -> int:
+    """How many kinds of lags there are."""
+    return 5 if lags.separation.of.size > 0 else 4
+
+
+@kernel
+def _separation(
+    system: LagSystem, lags: WakeLags, lifting: FloatArray, speed: FloatArray, states: FloatArray
+) -> Separation:
+    """What separated flow does, of all lags."""
+    kept, block = lags.kept.size, 5 * lags.kept.size
+    sides = states.size // block
+    attached = np.empty(sides * kept)
+    for side in range(sides):
+        last = (side + 1) * block
+        attached[side * kept : (side + 1) * kept] = states[last - kept : last]
+    return separated_flow(
+        lags.separation,
+        lags.kept,
+        lags.spread,
+        system.per_velocity,
+        system.chord,
+        lifting,
+        speed,
+        attached,
+        speed.shape[1] + block - kept,
+        block,
+    )
+
+
+@kernel
+def _put_shares(lags: WakeLags, shares: FloatArray, rates: FloatArray) -> None:
+    """Put the rates (S K, 1 + D) of the attached shares among those of all lags."""
+    kept, block = lags.kept.size, 5 * lags.kept.size
+    for side in range(shares.shape[0] // kept):
+        last = (side + 1) * block
+        rates[last - kept : last] = shares[side * kept : (side + 1) * kept]
 
 
 @kernel
@@ -145,7 +195,7 @@ def _spread(
         for kind in range(4):
             share = BOUND_SHARES[kind] if kind < 2 else TRAILING_SHARES[kind - 2]
             into = lagging if kind < 2 else trailing
-            first = (4 * side + kind) * kept
+            first = (_kinds(lags) * side + kind) * kept
             for e in range(n):
                 for k in range(kept):
                     weight = share * lags.spread[e, k]
@@ -164,12 +214,18 @@ def _lag_rates(
     speed: FloatArray,
     states: FloatArray,
 ) -> FloatArray:
-    """Rates (S 4 K, 1 + D) of the lags, without the derivative by each one's own state."""
+    """Rates (S J K, 1 + D) of the lags, without the derivative by each one's own state.
+
+    Those of attached shares are left at zero.
+    """
     n, kept = lags.spread.shape
-    rates = np.empty((states.size, normal.shape[1]))
+    kinds = _kinds(lags)
+    rates = np.zeros((states.size, normal.shape[1]))
     for state in range(states.size):
-        side, kind, k = state // (4 * kept), state // kept % 4, state % kept
+        side, kind, k = state // (kinds * kept), state // kept % kinds, state % kept
         i = side * n + lags.kept[k]
+        if kind == 4:
+            continue
         if kind < 2:
             per_distance = 2.0 * BOUND_RATES[kind] / system.chord[i]
             rates[state] = per_distance * speed[i, 0] * normal[i]

@@ -2,8 +2,9 @@
 
 Lift is that of the bound circulation in the wind at the quarter chord, with what trailing and shed
 vortices induce in it: rho Gamma U along the normal, and the suction of the leading edge along the
-chord. With it come profile drag and moment, and the loads of `birdmb.aerodynamics.apparent_mass`
-but for those of accelerations. In steady motion they are those of `twist_loads`.
+chord. With it come profile drag and moment, the loads of `birdmb.aerodynamics.apparent_mass` but
+for those of accelerations, and, where flow separates, drag and moment of
+`birdmb.aerodynamics.separation`. In steady motion they are those of `twist_loads`.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.apparent_mass import ApparentInertia, apparent_wrenches
 from birdmb.aerodynamics.elements import Elements
 from birdmb.aerodynamics.section_motion import SectionMotion
+from birdmb.aerodynamics.separation import section_wrenches
 from birdmb.aerodynamics.twist_loads import element_wrenches, mirror_sign, mirrored, wing_flow
 from birdmb.aerodynamics.unsteady_circulation import Unsteady
 
@@ -119,6 +121,8 @@ def side_wrenches(
         elements, wind, gamma, induced_y[rows], induced_z[rows], density, profile_drag
     )
     loads[:, :, :given] += flow.apparent
+    if unsteady.section.size > 0:
+        loads += section_wrenches(elements, flow.speed, unsteady.section[rows], density)
     for e in range(n):
         scale = density * elements.width[e]
         for m in range(columns):

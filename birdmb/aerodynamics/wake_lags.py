@@ -29,6 +29,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from birdmb._typing import FloatArray, IntArray
+from birdmb.aerodynamics.separation_curves import SeparationCurves, attached_flow
 
 BOUND_SHARES, BOUND_RATES = (0.165, 0.335), (0.0455, 0.3)  # rates per half chord travelled
 TRAILING_SHARES, TRAILING_RATES = (0.5, 0.5), (0.378, 4.6)  # per half span travelled
@@ -40,12 +41,21 @@ UNITS = ("m/s", "m/s", "m2/s", "m2/s")
 class WakeLags(NamedTuple):
     """Where along a wing of N elements lags are kept, and how the others follow from these.
 
+    Where flow separates, so does the attached share of the chord; see
+    `birdmb.aerodynamics.separation`.
+
     Along the span lags are smooth: they are kept at K of the elements. What of the motion the curve
     through these misses acts without a lag, so that steady loads are those of all elements.
     """
 
     kept: IntArray  # (K,) elements
     spread: FloatArray  # (N, K), of values at these to all elements
+    separation: SeparationCurves
+
+
+def no_wake_lags(elements: int) -> WakeLags:
+    """The lags about a wing of so many elements in air without a memory: none."""
+    return WakeLags(np.empty(0, np.int64), np.empty((elements, 0)), attached_flow(elements))
 
 
 def wake_lags(elements: int, points: int) -> WakeLags:
@@ -59,4 +69,5 @@ def wake_lags(elements: int, points: int) -> WakeLags:
     if kept.size < 4:
         raise ValueError("fewer than four points leave no cubic spline")
     spline = CubicSpline(kept, np.eye(kept.size), bc_type="not-a-knot")
-    return WakeLags(kept, np.ascontiguousarray(spline(np.arange(elements))))
+    everywhere = np.ascontiguousarray(spline(np.arange(elements)))
+    return WakeLags(kept, everywhere, attached_flow(elements))

@@ -34,6 +34,8 @@ def print_report(console: Console, cycle: FlightCycle, validity: Validity) -> No
     console.print(verdict)
     for remark in cycle.remarks:
         console.print(remark, style="yellow", highlight=False)
+    if validity.stall:
+        console.print(f"stall: {validity.stall}", highlight=False)
     for warning in validity.warnings:
         console.print(f"outside the model's validity: {warning}", style="yellow", highlight=False)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from dataclasses import asdict
 from importlib.metadata import version
 from typing import TYPE_CHECKING
 
@@ -60,6 +61,7 @@ def result_object(cycle: FlightCycle, validity: Validity, model_name: str) -> di
         "dissipation": cycle.dissipation,
         **{name: finite(value) for name, value in valid_by(validity).items()},
         "validity_warnings": list(validity.warnings),
+        "stalled_sections": [asdict(section) for section in validity.stalled],
     }
 
 

@@ -13,6 +13,7 @@ from birdmb.aerodynamics.apparent_mass import apparent_inertia, body_twists, ine
 from birdmb.aerodynamics.elements import clearance
 from birdmb.aerodynamics.joints import torques
 from birdmb.aerodynamics.pair import ElementLoads, pair_loads, pair_system, pair_wrench
+from birdmb.aerodynamics.separation import section_wrenches
 from birdmb.aerodynamics.tail import tail_angle, tail_force, tail_influence
 from birdmb.aerodynamics.twist_loads import mirrored, profile_drag, wing_wrench
 from birdmb.aerodynamics.wake_lags import WakeLags
@@ -221,6 +222,13 @@ def _remembered(
         through_air = twist if side == 0 else mirrored(twist)
         velocity = found.velocity[0, first : first + n]
         drag[side] = profile_drag(elements, velocity, through_air, aero.density, aero.profile_drag)
+        if memory.lags.separation.of.size > 0:
+            drag[side] += section_wrenches(
+                elements,
+                found.speed[0, first : first + n].reshape(n, 1),
+                found.section[0, first : first + n].reshape(n, 3, 1),
+                aero.density,
+            )[:, :3, 0]
     return (
         ElementLoads(
             found.circulation[0, :n].copy(),

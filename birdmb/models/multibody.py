@@ -20,6 +20,7 @@ from birdmb.models.starts import (
     steady_turns,
 )
 from birdmb.models.tree_model import TreeModel
+from birdmb.models.wake_states import without_memory
 from birdmb.orbits import find_limit_cycle
 
 _BEATS_TO_SETTLE = 6
@@ -131,4 +132,4 @@ class MultibodyModel(TreeModel):
         space = self.motion.in_space(body[None, : self.joint_states.first])[0]
         space[3:6] = 0.0
         options: dict[str, Any] = {**self._options(), "motion": "held", "body_state": space}
-        return type(self)(self.bird.with_values({"air.wake": "quasi-steady"}), **options)
+        return type(self)(without_memory(self.bird), **options)

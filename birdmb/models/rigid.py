@@ -224,7 +224,7 @@ class RigidModel(BirdModel):
         if not self.wake.count:
             return motion
         own = motion.shape[1]
-        states = np.hstack([motion, np.zeros((len(motion), self.wake.count))])
+        states = np.hstack([motion, np.tile(self.wake.attached, (len(motion), 1))])
         table, phase = self._table_for(times)
         rates, slopes = self._along(table, phase, times, states, slopes_wanted=True)
         states[:, own:] = self.wake.settled(rates[:, own:], slopes[:, own:, own:])

@@ -7,6 +7,7 @@ import numpy as np
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
 from birdmb.models.rigid import RigidModel
+from birdmb.models.wake_states import without_memory
 from birdmb.orbits import find_limit_cycles
 from birdmb.topology import Bird
 
@@ -18,8 +19,8 @@ def rigid_flights(bird: Bird, times: FloatArray) -> FloatArray:
     """
     try:
         # In air without a memory, which is where one with a memory leads to in steady flight.
-        bird = bird.with_values({"air.wake": "quasi-steady"})
-        flights = find_limit_cycles(RigidModel(bird), accuracy=1e-3, deflations=4)
+        still = RigidModel(without_memory(bird))
+        flights = find_limit_cycles(still, accuracy=1e-3, deflations=4)
     except StateError:
         flights = []
     states = [flight.trajectory(times).states for flight in flights]

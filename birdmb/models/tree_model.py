@@ -46,7 +46,7 @@ from birdmb.models.tree_coordinates import (
 )
 from birdmb.models.tree_forces import TreeLoads
 from birdmb.models.tree_rates import TreeRates
-from birdmb.models.wake_states import wake_states
+from birdmb.models.wake_states import wake_states, without_memory
 from birdmb.models.wing_model import BirdModel
 from birdmb.topology import SIDES, Bird
 from birdmb.wing.arrays import WingArrays
@@ -357,12 +357,12 @@ class TreeModel(BirdModel):
         """States (K, n) of those of body and joints (K, m): with the lags that these settle at."""
         if not self.wake.count:
             return motion
-        states = np.hstack([motion, np.zeros((times.size, self.wake.count))])
+        states = np.hstack([motion, np.tile(self.wake.attached, (times.size, 1))])
         rates = self.rates(times, states)[:, self._lags]
         return np.hstack([motion, self.wake.settled(rates, self._lag_slopes(times, states))])
 
     def _lag_slopes(self, times: FloatArray, states: FloatArray) -> FloatArray:
-        """Derivatives (K, m, m) of the lags' rates by the lags, in which these are linear."""
+        """Derivatives (K, m, m) of the lags' rates by the lags, linear in attached flow."""
         count = self.wake.count
         shifted = np.repeat(states[:, None], count + 1, axis=1)
         shifted[:, 1:, self._lags] += np.eye(count)
@@ -372,7 +372,7 @@ class TreeModel(BirdModel):
 
     @cached_property
     def _trim(self) -> FloatArray:
-        still = self.bird.side("right").with_values({"air.wake": "quasi-steady"})
+        still = without_memory(self.bird.side("right"))
         planar = RigidModel(still).initial_guess()
         return PLANAR.in_space(planar[None])[0, self.motion.indices]
 

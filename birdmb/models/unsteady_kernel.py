@@ -49,6 +49,7 @@ class UnsteadyRows(NamedTuple):
     angle_of_attack: FloatArray  # (R, M) rad, at three quarters of the chord
     speed: FloatArray  # (R, M) m/s, there
     velocity: FloatArray  # (R, M, 3) m/s, of the control points relative to the body
+    section: FloatArray  # (R, M, 3) of `Separation`, zeros where no flow separates
 
 
 @kernel
@@ -81,6 +82,7 @@ def unsteady_rows(
         np.empty((count, m)),
         np.empty((count, m)),
         np.empty((count, m, 3)),
+        np.zeros((count, m, 3)),
     )
     right, left = placed[0].elements, placed[1].elements
     system = lag_system(right, left, influence.induced_y, influence.induced_z, lags)
@@ -134,6 +136,8 @@ def unsteady_rows(
         found.circulation[r] = unsteady.circulation[:, 0]
         found.trailing[r] = unsteady.trailing[:, 0]
         found.lag_rates[r] = unsteady.lag_rates[:, 0]
+        if unsteady.section.size > 0:
+            found.section[r] = unsteady.section[:, :, 0]
     return found
 
 

@@ -14,6 +14,10 @@ strong downwash the geometric angle may be far larger without harm; it is report
 any lifting line grows without bound as elements are refined (for the ibis 22, 26 and 32 deg at the
 last of 16, 32 and 64 elements), where chord and load vanish. The tip that holds the last 1 % of the
 wing's area is therefore left out of the verdict, but not of the data.
+
+**What a model holds is no excess.** Air that remembers has no limit of the reduced frequency, and
+where flow may separate from the sections no angle of attack is too large: `Validity.stalled` tells
+which of them are stalled when.
 """
 
 from __future__ import annotations
@@ -29,6 +33,7 @@ import xarray as xr
 from birdmb._typing import BoolArray, FloatArray
 from birdmb.models import FlightCycle
 from birdmb.models.loads_kernel import StackedWing
+from birdmb.studies.stalled_sections import StalledSection, stall_sentence, stalled_sections
 from birdmb.wing.outline import areas_across, wing_outline
 
 if TYPE_CHECKING:
@@ -159,6 +164,8 @@ class Validity:
         largest_tail_angle: largest modulus of the tail's angle of attack, rad; NaN without a tail.
         largest_overlap: largest part of the wing's area that is across the plane of symmetry.
         excesses: where the limits are exceeded; none if the flight is within them.
+        stalled: the sections that are stalled in part of the beat, where the bird's profiles have a
+            polar or stall; none of any other bird.
         cycle: the flight.
     """
 
@@ -167,6 +174,7 @@ class Validity:
     largest_tail_angle: float
     largest_overlap: float
     excesses: tuple[ValidityViolation | TailViolation | Overlap, ...]
+    stalled: tuple[StalledSection, ...]
     cycle: FlightCycle
 
     @cached_property
@@ -191,6 +199,11 @@ class Validity:
     def warnings(self) -> tuple[str, ...]:
         """A sentence for each excess."""
         return tuple(map(str, self.excesses))
+
+    @property
+    def stall(self) -> str:
+        """Which sections are stalled when, a sentence; empty if flow may not separate."""
+        return stall_sentence(self.stalled) if self.cycle.model.wake.separates else ""
 
     @property
     def largest_angle_of_attack(self) -> float:
@@ -240,9 +253,12 @@ def assess_validity(
     span = stack.right.width[:-1].sum(axis=1)
     mean_chord = float((area.sum(axis=1) / span).mean())
     k = np.pi * frequency * mean_chord / cycle.mean_speed
-    excesses: list[ValidityViolation | TailViolation | Overlap] = [
-        excess for of_wing in each for excess in _beyond_angle(of_wing, largest_angle)
-    ]
+    excesses: list[ValidityViolation | TailViolation | Overlap] = []
+    stalled: tuple[StalledSection, ...] = ()
+    if model.wake.separates:
+        stalled = stalled_sections(cycle, tuple(wings[: len(each)]))
+    else:
+        excesses += [excess for of_wing in each for excess in _beyond_angle(of_wing, largest_angle)]
     if k > largest_reduced_frequency and not model.wake.count:
         local = data["reduced_frequency"].values
         beyond = local > largest_reduced_frequency
@@ -265,6 +281,7 @@ def assess_validity(
         largest_tail_angle=float(tail_angle.max()),
         largest_overlap=float(overlap.max()),
         excesses=tuple(excesses),
+        stalled=stalled,
         cycle=cycle,
     )
 

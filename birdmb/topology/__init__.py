@@ -7,20 +7,20 @@ from birdmb.topology.drivers import Driver, Harmonic
 from birdmb.topology.feathers import Feather, Hinge
 from birdmb.topology.joints import SIDES, Joint, JointSide
 from birdmb.topology.loading import load_bird
-from birdmb.topology.parts import (
-    PRESETS,
-    Air,
-    Body,
-    Discretisation,
-    Gait,
-    Profile,
-    Root,
-    Wing,
-)
+from birdmb.topology.parts import Air, Body, Gait
 from birdmb.topology.samples import DriverFit
 from birdmb.topology.sections import Section
 from birdmb.topology.segments import Segment, Segments
 from birdmb.topology.values import parse_assignment
+from birdmb.topology.wings import (
+    PRESETS,
+    Discretisation,
+    Polar,
+    Profile,
+    Root,
+    Stall,
+    Wing,
+)
 
 __all__ = [
     "PRESETS",
@@ -40,11 +40,13 @@ __all__ = [
     "Hinge",
     "Joint",
     "JointSide",
+    "Polar",
     "Profile",
     "Root",
     "Section",
     "Segment",
     "Segments",
+    "Stall",
     "Tail",
     "Wing",
     "load_bird",

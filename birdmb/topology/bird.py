@@ -26,7 +26,6 @@ from birdmb.topology.parts import (
     Body,
     Gait,
     Part,
-    Wing,
 )
 from birdmb.topology.sections import Section
 from birdmb.topology.segments import Segments
@@ -38,6 +37,7 @@ from birdmb.topology.spanning import (
     segment_names,
 )
 from birdmb.topology.values import is_resolution, named_places, place_of, put_values, value_at
+from birdmb.topology.wings import Profile, Wing
 from birdmb.topology.writing import write_bird
 
 
@@ -147,6 +147,15 @@ class Bird(Part):
         return self
 
     @model_validator(mode="after")
+    def _one_profile_drag(self) -> Self:
+        if self.drag.profile_coefficient and any(p.polar for p in self.profiles):
+            raise problem(
+                "given beside a polar, whose drag is all that a section has; keep one of the two",
+                *("drag", "profile_coefficient"),
+            )
+        return self
+
+    @model_validator(mode="after")
     def _shares_are_of_joints(self) -> Self:
         for i, feather in enumerate(self.feathers):
             for joint, _ in feather.shares:
@@ -159,6 +168,17 @@ class Bird(Part):
                         "shares",
                     )
         return self
+
+    @property
+    def profiles(self) -> tuple[Profile, ...]:
+        """Profile of each section from the shoulder outwards, or one where they have none."""
+        own = [section.profile for section in self.sections]
+        return tuple(profile or self.wing.profile for profile in own or [None])
+
+    @property
+    def stalls(self) -> bool:
+        """Whether flow separates from the wings' sections."""
+        return any(profile.polar or profile.stall for profile in self.profiles)
 
     @property
     def is_symmetric(self) -> bool:

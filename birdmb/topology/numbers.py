@@ -8,6 +8,7 @@ number: where it is allowed, it means that there is nothing of the kind.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -86,7 +87,12 @@ Viscosity = Annotated[_Positive, _within(1e-12, 1e6, "water has 1e-6 m2/s, honey
 Gravity = Annotated[_NonNegative, _within(1e-9, 1e4, "the sun has 274 m/s2", or_zero=True)]
 Coefficient = Annotated[_NonNegative, _within(1e-9, 1e3, "a flat plate has 2", or_zero=True)]
 LiftSlope = Annotated[_Positive, _within(1e-6, 1e3, "thin sections have 2 pi")]
+LiftCoefficient = Annotated[Real, _within(-1e3, 1e3, "sections reach 1 to 2")]
 MomentCoefficient = Annotated[Real, _within(-1e3, 1e3, "cambered sections have some -0.1")]
+PolarAngle = Annotated[Real, _within(-math.pi, math.pi, "a polar goes once around")]
+StallAngle = Annotated[_Positive, _within(1e-2, 1.5, "sections stall at 8 to 20 degrees")]
+StallWidth = Annotated[_Positive, _within(1e-3, 1.5, "thin sections stall within 2 to 5 degrees")]
+StallTime = Annotated[_Positive, _within(1e-2, 1e3, "4 chords is a usual one")]
 Stiffness = Annotated[
     _NonNegative,
     _within(1e-40, 1e12, "a joint that hardly gives is prescribed", or_zero=True),

@@ -7,41 +7,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from types import MappingProxyType
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
-from pydantic import (
-    AfterValidator,
-    BaseModel,
-    ConfigDict,
-    Discriminator,
-    Field,
-    Tag,
-    WithJsonSchema,
-    model_validator,
-)
-from pydantic_core import PydanticCustomError
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from birdmb._typing import FloatArray
 from birdmb.topology.inertia import moments_by_key, tell_of_tensor
-from birdmb.topology.messages import BRANCH, problem, shown
-from birdmb.topology.names import Label
+from birdmb.topology.messages import problem
 from birdmb.topology.numbers import (
-    Angle,
     Area,
     Coefficient,
-    Coordinate,
     Density,
-    Distance,
-    Elements,
-    Fraction,
     Frequency,
     Inertia,
-    LiftSlope,
     Mass,
     Moment,
-    MomentCoefficient,
     Viscosity,
     Volume,
     WakePoints,
@@ -167,115 +148,3 @@ class Body(Part):
         zz = self.inertia_yy if self.inertia_zz is None else self.inertia_zz
         xz = 0.0 if self.missing_moments else self.inertia_xz
         return np.array([[xx, 0.0, xz], [0.0, self.inertia_yy, 0.0], [xz, 0.0, zz]])
-
-
-class Discretisation(Part):
-    """How finely, and by which construction, the lifting line is computed."""
-
-    scheme: Literal["orthogonal", "one-step"] = Field(
-        description="construction of the lifting line: orthogonal, or one-step as published"
-    )
-    elements: Elements = Field(description="elements per wing, 2 or more")
-    rounding: Fraction = Field(
-        description="rounding of the edges' corners, a fraction above 0 up to 1"
-    )
-
-
-# Whoever changes these numbers changes every fingerprint of a bird that uses them.
-PRESETS: Mapping[str, Discretisation] = MappingProxyType(
-    {
-        "converged": Discretisation(scheme="orthogonal", elements=32, rounding=0.5),
-        "published": Discretisation(scheme="one-step", elements=8, rounding=0.5),
-    }
-)
-
-_CHOICE = (
-    f"must be {' or '.join(map(shown, PRESETS))}, a whole number of elements per wing, "
-    "or a table of scheme, elements and rounding"
-)
-
-
-def _known_preset(name: str) -> str:
-    if name not in PRESETS:
-        raise PydanticCustomError("choice", _CHOICE)
-    return name
-
-
-def _kind_of_discretisation(value: object) -> str | None:
-    if isinstance(value, str):
-        return f"{BRANCH}preset"
-    if isinstance(value, int) and not isinstance(value, bool):
-        return f"{BRANCH}elements"
-    return f"{BRANCH}table" if isinstance(value, Mapping | Discretisation) else None
-
-
-class Root(Part):
-    """The right shoulder joint, from the body's centre of mass in the body frame."""
-
-    x: Coordinate = Field(description="how far the shoulder is ahead of the centre of mass, m")
-    y: Distance = Field(description="how far the shoulder is to the right, m")
-    z: Coordinate = Field(default=0.0, description="how far the shoulder is below, m")
-
-
-class Profile(Part):
-    """What a wing section does to the air about it; a thin symmetric one by default.
-
-    Its circulation is half of chord times lift slope times speed times the angle of attack beyond
-    that of zero lift; its pitching moment about the quarter chord is the coefficient times dynamic
-    pressure and chord squared, and does not depend on incidence.
-    """
-
-    angles: ClassVar[tuple[str, ...]] = ("zero_lift_angle",)
-
-    lift_slope: LiftSlope = Field(
-        default=2.0 * math.pi, description="lift coefficient per angle of attack, 1/rad"
-    )
-    zero_lift_angle: Angle = Field(
-        default=0.0,
-        description="angle of attack without lift, negative of cambered sections; rad, degrees as "
-        "zero_lift_angle_deg",
-    )
-    moment_coefficient: MomentCoefficient = Field(
-        default=0.0, description="moment about the quarter chord, nose up positive"
-    )
-
-
-class Wing(Part):
-    """Where the wing is attached, how thick it is and how finely it is computed."""
-
-    root: Root = Field(description="position of the right shoulder, a table of x, y and z in m")
-    half_thickness: Distance = Field(
-        default=0.0,
-        description="distance of the leading edge and of the feather roots from the bones, m; a "
-        "wing of sections has no use for it",
-    )
-    propatagium: Label | None = Field(
-        default=None,
-        description="segment to whose end the leading edge runs straight from the shoulder, as the "
-        "skin before an elbow does; by default the second one of three or more, else the first",
-    )
-    profile: Profile = Field(
-        default=Profile(), description="profile of all sections that have none of their own"
-    )
-    discretisation: Annotated[
-        Annotated[
-            str,
-            AfterValidator(_known_preset),
-            WithJsonSchema({"type": "string", "enum": [*PRESETS]}),
-            Tag(f"{BRANCH}preset"),
-        ]
-        | Annotated[Elements, Tag(f"{BRANCH}elements")]
-        | Annotated[Discretisation, Tag(f"{BRANCH}table")],
-        Discriminator(
-            _kind_of_discretisation, custom_error_type="choice", custom_error_message=_CHOICE
-        ),
-    ] = Field(default="converged", description="how finely the wing's loads are computed")
-
-    @property
-    def resolved_discretisation(self) -> Discretisation:
-        """The numbers behind `discretisation`; a mere number of elements is else as converged."""
-        if isinstance(self.discretisation, Discretisation):
-            return self.discretisation
-        if isinstance(self.discretisation, str):
-            return PRESETS[self.discretisation]
-        return PRESETS["converged"].model_copy(update={"elements": self.discretisation})

@@ -8,7 +8,8 @@ from pydantic import Field
 
 from birdmb.topology.names import Label
 from birdmb.topology.numbers import Angle, Coordinate, Distance, UnitInterval
-from birdmb.topology.parts import Part, Profile
+from birdmb.topology.parts import Part
+from birdmb.topology.wings import Profile
 
 
 class Section(Part):

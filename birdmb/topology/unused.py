@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 
 from birdmb.topology.bird import Bird
 from birdmb.topology.joints import SIDES, Joint
-from birdmb.topology.parts import Profile
+from birdmb.topology.wings import Profile
 
 SPRING = ("stiffness", "damping", "cubic_stiffness", "stiffness_below")
 _PHASE = ("phase", "phase_deg")

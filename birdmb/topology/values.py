@@ -14,8 +14,9 @@ from birdmb.topology.attachments import Attachment
 from birdmb.topology.drivers import Harmonic
 from birdmb.topology.joints import SIDES, Joint, JointSide
 from birdmb.topology.messages import Location, nearest, shown
-from birdmb.topology.parts import Part, Wing
+from birdmb.topology.parts import Part
 from birdmb.topology.segments import Segments
+from birdmb.topology.wings import Wing
 
 _RESOLUTION = "wing.discretisation"
 
