@@ -58,7 +58,8 @@ def tree_loads(
     """
     body, angles = coordinates.size, drivers.angles.shape[1]
     remembers = q.size if lags.size else 0
-    # No named tuple: a signal's handler may raise while numba has Python make one, and it crashes.
+    # Not a named tuple: numba has Python make it, and a signal's handler that raises in there ends
+    # the process.
     forces, lag_rates = np.full(q.size, np.nan), np.full(lags.size, np.nan)
     inertia = np.zeros((remembers, remembers))
     if not (np.isfinite(q).all() and np.isfinite(v).all()):
@@ -106,10 +107,10 @@ def _resist(
     air: AirForces,
     inertia: FloatArray,
 ) -> None:
-    """Write the air's `inertia` (n, n) of the tree's coordinates, and add to the air's forces.
+    """Write the air's `inertia` (n, n) of the tree's free coordinates, and add to its forces.
 
-    Those are added that it takes where the body's coordinates at `place`, (6,) of them that change
-    at the rates `moves`, do not accelerate: along its own axes it does nevertheless.
+    At coordinates `place` and velocities `moves` (6,) of the body. Its spin changes even where yaw,
+    pitch and roll do not accelerate; the forces that resist this change are added.
     """
     directions, free = constants.links.directions, np.flatnonzero(~constants.prescribed)
     body, size = directions.size, constants.prescribed.size
