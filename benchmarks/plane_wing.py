@@ -11,21 +11,21 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from birdmb.aerodynamics.elements import place_elements
-from birdmb.aerodynamics.pair import pair_loads
-from birdmb.aerodynamics.twist_loads import mirrored, wing_wrench
-from birdmb.wing.shape import WingShape
+from birdmb.studies.experiments.derivatives import (
+    AVL,
+    LINE,
+    MOMENTS_AT,
+    WING,
+    derivatives,
+    quasi_steady_wrench,
+    settled_wrench,
+)
 
 Wrench = Callable[[np.ndarray], np.ndarray]
 
-HALF_SPAN, AREA, CHORD, SPAN, MOMENTS_AT = 7.5, 30.0, 2.0, 15.0, 0.5
-ALPHA, TWIST = np.radians(1.0), np.radians(2.0)
-STEP = 1e-4
-# Drela and Youngren's AVL: 12 equal strips a half wing, one panel along the chord.
-AVL = {
-    "CL_alpha": 4.638, "Cm_alpha": -0.4292, "CL_q": np.nan, "Cm_q": -0.5171, "Cl_beta": -0.02575,
-    "Cn_beta": 0.00047, "Cl_p": -0.5187, "Cn_p": -0.01985, "Cl_r": 0.06424, "Cn_r": -0.00090,
-}  # fmt: skip
+HALF_SPAN = 0.5 * WING.span
+ON_ITSELF = 1e-12  # m2, where a vortex moves no air
+TWIST = float(WING.twists[0])
 
 
 def chords(y: np.ndarray) -> np.ndarray:
@@ -38,50 +38,25 @@ def ahead(y: np.ndarray, part: float) -> np.ndarray:
     return MOMENTS_AT - 0.4 * np.abs(y) / HALF_SPAN - part * chords(y)
 
 
-def lifting_line(elements: int) -> Wrench:
-    """Wrench by twist (6,) of the program's lifting line; air of density 1."""
-    y = HALF_SPAN * np.sin(np.linspace(0.0, np.pi / 2, 2 * elements))
-    line = np.column_stack([ahead(y, 0.25), y, np.zeros_like(y)])
-    sweep = np.arctan2(0.3, HALF_SPAN)
-    span = np.array([-np.sin(sweep), np.cos(sweep), 0.0])
-    back = np.array([-np.cos(TWIST) * np.cos(sweep), -np.cos(TWIST) * np.sin(sweep), np.sin(TWIST)])
-    up = np.cross(back, span)
-    up *= -np.sign(up[2])
-    each = (elements, 1)
-    shape = WingShape(
-        line, np.zeros((elements, 3)), np.tile(back, each), np.tile(up, each), np.tile(span, each),
-        chords(y[0::2]) * np.cos(sweep), np.tile([2.0 * np.pi, 0.0, 0.0], each),
-        np.zeros((elements, 2)), True, np.zeros((0, elements, 6)), np.zeros((elements, 3)),
-    )  # fmt: skip
-    placed = place_elements(shape, np.zeros(3))
-
-    def wrench(twist: np.ndarray) -> np.ndarray:
-        both = pair_loads(placed, placed, False, 1.0, 0.0, twist)
-        right, left = (
-            wing_wrench(placed.position, loads.wrench[:, :, None])[:, 0] for loads in both
-        )
-        return np.asarray(right + mirrored(left))
-
-    return wrench
-
-
-def lattice(strips: int, control: float, bound: bool, legs: bool) -> Wrench:
-    """Wrench by twist (6,) of a lattice of one horseshoe vortex a strip; air of density 1.
+def lattice(strips: int, control: float, bound: bool, legs: bool, panels: int = 1) -> Wrench:
+    """Wrench by twist (6,) of a lattice of horseshoe vortices; air of density 1.
 
     Args:
         strips: of equal width in each half wing.
-        control: part of the chord at which no air may pass.
+        control: part of a panel's chord at which no air may pass.
         bound: whether the bound vortices act on each other, and not each on its own section alone.
         legs: whether the trailing vortices feel the wind where they lie in the wing.
+        panels: of equal length along the chord; one unless bound vortices act on each other.
     """
     edge = np.linspace(-HALF_SPAN, HALF_SPAN, 2 * strips + 1)
     middle = 0.5 * (edge[1:] + edge[:-1])
-    count = middle.size
-    start, end = (
-        np.column_stack([ahead(y, 0.25), y, np.zeros(count)]) for y in (edge[:-1], edge[1:])
-    )
+    y, first, second = (np.tile(x, panels) for x in (middle, edge[:-1], edge[1:]))
+    before = np.repeat(np.arange(panels), middle.size)
+    count = y.size
+    vortex, at_control = (before + 0.25) / panels, (before + control) / panels
+    start, end = (np.column_stack([ahead(x, vortex), x, np.zeros(count)]) for x in (first, second))
     centre = 0.5 * (start + end)
-    at = np.column_stack([ahead(middle, control), middle, np.zeros(count)])
+    at = np.column_stack([ahead(y, at_control), y, np.zeros(count)])
     normal = np.array([-np.sin(TWIST), 0.0, -np.cos(TWIST)])
 
     def induced(points: np.ndarray) -> np.ndarray:
@@ -99,10 +74,9 @@ def lattice(strips: int, control: float, bound: bool, legs: bool) -> Wrench:
         if bound:
             a, b = points[:, None] - start[None], points[:, None] - end[None]
             na, nb = np.linalg.norm(a, axis=-1), np.linalg.norm(b, axis=-1)
-            scale = (na + nb) / (na * nb * (na * nb + (a * b).sum(axis=-1)))
-            with np.errstate(invalid="ignore"):
-                own = np.nan_to_num(scale[..., None] * np.cross(a, b) / (4 * np.pi))
-            total += own
+            across = np.maximum(na * nb + (a * b).sum(axis=-1), ON_ITSELF)
+            scale = (na + nb) / (4 * np.pi * na * nb * across)
+            total += scale[..., None] * np.cross(a, b)
         return total
 
     system = induced(at) @ normal
@@ -119,8 +93,8 @@ def lattice(strips: int, control: float, bound: bool, legs: bool) -> Wrench:
         flow = wind(centre) + np.einsum("ijk,j->ik", at_bound, gamma)
         forces = [(centre, gamma[:, None] * np.cross(flow, end - start))]
         if legs:
-            for ends, y, sign in ((start, edge[:-1], -1.0), (end, edge[1:], 1.0)):
-                length = 0.75 * chords(y)
+            for ends, x, sign in ((start, first, -1.0), (end, second, 1.0)):
+                length = (1.0 - vortex) * chords(x)
                 leg = np.column_stack([-sign * length, np.zeros(count), np.zeros(count)])
                 on = ends - np.column_stack([0.5 * length, np.zeros(count), np.zeros(count)])
                 forces.append((on, gamma[:, None] * np.cross(wind(on), leg)))
@@ -129,31 +103,6 @@ def lattice(strips: int, control: float, bound: bool, legs: bool) -> Wrench:
         )
 
     return wrench
-
-
-def derivatives(wrench: Wrench) -> dict[str, float]:
-    """The derivatives in stability axes; rates by span/(2 U), in pitch by chord/(2 U)."""
-    c, s = np.cos(ALPHA), np.sin(ALPHA)
-    axes = np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
-
-    def found(alpha: float, beta: float, rates: np.ndarray) -> np.ndarray:
-        velocity = [np.cos(beta) * np.cos(alpha), np.sin(beta), np.cos(beta) * np.sin(alpha)]
-        spin = axes.T @ (rates * 2.0 / np.array([SPAN, CHORD, SPAN]))
-        force, moment = np.split(wrench(np.append(velocity, spin)), 2)
-        lift = force[0] * np.sin(alpha) - force[2] * np.cos(alpha)
-        roll, pitch, yaw = axes @ moment / np.array([SPAN, CHORD, SPAN])
-        return np.array([lift, roll, pitch, yaw]) / (0.5 * AREA)
-
-    def slope(alpha: float = 0.0, beta: float = 0.0, rate: int | None = None) -> np.ndarray:
-        rates = np.zeros(3) if rate is None else np.eye(3)[rate]
-        ends = [found(ALPHA + h * alpha, h * beta, h * rates) for h in (STEP, -STEP)]
-        return np.asarray((ends[0] - ends[1]) / (2 * STEP))
-
-    a, b, p, q, r = slope(alpha=1), slope(beta=1), slope(rate=0), slope(rate=1), slope(rate=2)
-    return {
-        "CL_alpha": a[0], "Cm_alpha": a[2], "CL_q": q[0], "Cm_q": q[2], "Cl_beta": b[1],
-        "Cn_beta": b[3], "Cl_p": p[1], "Cn_p": p[3], "Cl_r": r[1], "Cn_r": r[3],
-    }  # fmt: skip
 
 
 def main() -> None:
@@ -169,7 +118,11 @@ def main() -> None:
         "  and with the wind at the quarter chord": derivatives(
             lattice(12, 0.25, bound=False, legs=False)
         ),
-        "lifting line": derivatives(lifting_line(48)),
+        "lattice of 8 panels along the chord": derivatives(
+            lattice(12, 0.75, bound=True, legs=True, panels=8)
+        ),
+        "lifting line": derivatives(quasi_steady_wrench(LINE)),
+        "lifting line, unsteady": derivatives(settled_wrench(LINE)),
     }
     for name, values in rows.items():
         table.add_row(name, *("" if np.isnan(v) else f"{v:.4g}" for v in values.values()))

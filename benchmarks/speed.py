@@ -16,10 +16,11 @@ from rich.table import Table
 
 import birdmb
 from birdmb.aerodynamics.prescribed import prescribed_wing, symmetric_loads
-from birdmb.models.exudyn_tree import ExudynBird
-from birdmb.models.rates_kernel import Motion, air_forces
+from birdmb.models.air_kernel import Motion, air_forces
+from birdmb.models.exudyn_bird import ExudynBird
 from birdmb.models.springs import spring_torques, springs_of
 from birdmb.models.tree_coordinates import IN_PLANE
+from birdmb.models.tree_forces import TreeLoads
 
 TOPOLOGIES = Path(__file__).parent.parent / "topologies"
 
@@ -61,10 +62,11 @@ def load_evaluations(prescribed: birdmb.Bird, compliant: birdmb.Bird) -> tuple[f
     drivers, instants = tree.drivers_at(times)
     joints = slice(IN_PLANE.size, IN_PLANE.size + drivers.angles.shape[1])
     angles, rates = q[None, joints], v[None, joints]
-    motion = Motion(twist[None], np.zeros((1, 3)), angles, rates)
+    motion = Motion(twist[None], np.zeros((1, 3)), angles, rates, np.empty((1, 0)))
     row = np.zeros(1, np.int64)
     shapes = tree.shapes_at(instants, times, row, angles, rates)
-    free = best(lambda: air_forces(tree.constants, shapes, motion, row), inner=2000)
+    driven = drivers.accelerations[0]
+    free = best(lambda: air_forces(tree.constants, shapes, motion, driven, row), inner=2000)
     return fixed, free
 
 
@@ -88,25 +90,27 @@ def integrations(bird: birdmb.Bird) -> tuple[float, float, int]:
     """Seconds of a beat in Exudyn with and without the air's loads; evaluations of the forces."""
     model = birdmb.MultibodyModel(bird)
     x0, steps, calls = model.initial_guess(), model.steps_per_beat, 0
+    none = np.empty(0)
     springs = springs_of(bird)
     joints = slice(IN_PLANE.size, IN_PLANE.size + springs.damping.size)
 
-    def springs_alone(t: float, q: np.ndarray, v: np.ndarray) -> np.ndarray:
+    def springs_alone(t: float, q: np.ndarray, v: np.ndarray, lags: np.ndarray) -> TreeLoads:
         nonlocal calls
         calls += 1
         drivers, _ = model.tree.drivers_at(np.array([t]))
         torques = spring_torques(
             springs, q[joints] - drivers.angles[0], v[joints] - drivers.rates[0]
         )
-        return np.concatenate([np.zeros(IN_PLANE.size), torques, torques])
+        forces = np.concatenate([np.zeros(IN_PLANE.size), torques, torques])
+        return TreeLoads(forces, np.empty((0, 0)), lags)
 
     bare = ExudynBird(
         bird, IN_PLANE, springs_alone, model.prescribed, model.tree.driver_accelerations
     )
     q, v = model.coordinates(0.0, x0)
-    bare.integrate(q, v, 0.0, bird.period, steps)
+    bare.integrate(q, v, none, 0.0, bird.period, steps)
     evaluations, calls = calls, 0
-    without = best(lambda: bare.integrate(q, v, 0.0, bird.period, steps))
+    without = best(lambda: bare.integrate(q, v, none, 0.0, bird.period, steps))
     return best(lambda: model.flow(x0, 0.0, bird.period)), without, evaluations
 
 
@@ -152,6 +156,35 @@ def cycles() -> Table:
     return table
 
 
+def memory() -> Table:
+    """Limit cycles with multipliers from a cold guess, in air without a memory and with one."""
+    table = Table("limit cycle", "air", "states", "nodes", "collocation", "ratio")
+    for name, kind in (
+        ("ibis", birdmb.RigidModel),
+        ("ibis_compliant_shoulder", birdmb.MultibodyModel),
+        ("ibis_hinged_feathers", birdmb.MultibodyModel),
+    ):
+        plain = birdmb.load_bird(TOPOLOGIES / f"{name}.toml")
+        birds = plain, plain.with_values({"air.wake": "unsteady", "air.wake_points": 6})
+        # By turns: the machine may be busy for a while.
+        times = [
+            [seconds(partial(search, kind, bird, None, "collocation"), 2) for bird in birds]
+            for _ in range(3)
+        ]
+        shortest = np.min(times, axis=0)
+        for bird, time_taken in zip(birds, shortest, strict=True):
+            cycle = search(kind, bird, None, "collocation")
+            table.add_row(
+                name,
+                bird.air.wake,
+                str(len(cycle.x0)),
+                str(cycle.nodes),
+                f"{time_taken * 1e3:.0f} ms",
+                f"{time_taken / shortest[0]:.1f}",
+            )
+    return table
+
+
 def main() -> None:
     """Print the tables."""
     console = Console()
@@ -170,6 +203,7 @@ def main() -> None:
     table.add_row("a beat in Exudyn without", f"{bare * 1e3:.1f} ms", f"ratio {loaded / bare:.2f}")
     console.print(table)
     console.print(cycles())
+    console.print(memory())
 
     scaling = Table("elements a wing", "joints prescribed", "shoulder compliant")
     for n in (8, 16, 32, 64):

@@ -30,20 +30,24 @@ from .orbits import (
     stability_boundary,
 )
 from .studies import (
+    MemoryEffect,
     Trim,
     TrimError,
     Validity,
     assess_validity,
     gust_response,
+    memory_effect,
     parameter_study,
     perturbed_flight,
     trim_flight,
     tunnel_and_free_flight,
 )
 from .studies.branch import bird_branch
+from .studies.moving_wing import MovingWingLoads, PlaneWing, WingMotion, moving_wing_loads
 from .studies.scaling import ScaledBird, scale_bird
+from .studies.stability_opening import stability_openings
 from .studies.sweeps import Study, SweepError, Trimming, sweep
-from .studies.tail import stability_openings, tail_study
+from .studies.tail import tail_study
 from .topology import Bird, load_bird
 from .topology.shipped import bird_names
 
@@ -64,9 +68,12 @@ __all__ = [
     "KinematicsFit",
     "LimitCycle",
     "Loads",
+    "MemoryEffect",
+    "MovingWingLoads",
     "MultibodyModel",
     "OdeModel",
     "OrbitError",
+    "PlaneWing",
     "RigidModel",
     "ScaledBird",
     "StateError",
@@ -78,6 +85,7 @@ __all__ = [
     "TrimError",
     "Trimming",
     "Validity",
+    "WingMotion",
     "assess_validity",
     "bird_branch",
     "bird_from_morphology",
@@ -91,7 +99,9 @@ __all__ = [
     "largest_lyapunov_exponent",
     "load_bird",
     "load_branch",
+    "memory_effect",
     "mode_disturbance",
+    "moving_wing_loads",
     "parameter_study",
     "perturbed_flight",
     "perturbed_response",

@@ -3,10 +3,10 @@
 Run `python examples/bird_branch.py [DIRECTORY]` for the branch from 60 to 2 N m/rad: its picture
 goes to the directory, and a run that was stopped goes on. With `--evidence` instead of a directory
 it prints what tells that the branch turns, with `--refined` where the fold is on other wings, with
-other steps and inertias.
+other steps and inertias; `--coarse` is a quick piece of the branch on a coarse wing.
 """
 
-import sys
+import argparse
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
@@ -37,7 +37,7 @@ def table_row(item: BranchPoint | Bifurcation) -> None:
     )
 
 
-def whole_branch(bird: birdmb.Bird, directory: Path) -> None:
+def whole_branch(bird: birdmb.Bird, directory: Path, lowest: float) -> None:
     directory.mkdir(parents=True, exist_ok=True)
     store = directory / "stiffness_branch.nc"
     kept = birdmb.load_branch(store) if store.exists() else None
@@ -45,7 +45,9 @@ def whole_branch(bird: birdmb.Bird, directory: Path) -> None:
         " k, N m/rad    |L|max  stability    speed    climb    power    pitch   attack   k_red\n"
         "                                      m/s      m/s        W      deg      deg"
     )
-    branch = bird_branch(bird, STIFFNESS, (60.0, 2.0), resume=kept, store=store, callback=table_row)
+    branch = bird_branch(
+        bird, STIFFNESS, (60.0, lowest), resume=kept, store=store, callback=table_row
+    )
     plot_bird_branch(branch).savefig(directory / "stiffness_branch.png", dpi=100)
 
 
@@ -130,15 +132,21 @@ def refined(bird: birdmb.Bird) -> None:
             print(f"{label}: no bifurcation up to {branch.parameters[-1]:.4f}, {why}", flush=True)
 
 
-def main(argument: str) -> None:
+def main(options: argparse.Namespace) -> None:
     bird = birdmb.load_bird(IBIS)
-    if argument == "--evidence":
+    if options.evidence:
         evidence(bird)
-    elif argument == "--refined":
+    elif options.refined:
         refined(bird)
+    elif options.coarse:
+        whole_branch(bird.with_values({"wing.discretisation": 4}), options.directory, 58.0)
     else:
-        whole_branch(bird, Path(argument))
+        whole_branch(bird, options.directory, 2.0)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1] if len(sys.argv) > 1 else "results")
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("directory", nargs="?", type=Path, default=Path("results"))
+    for name in ("evidence", "refined", "coarse"):
+        parser.add_argument(f"--{name}", action="store_true")
+    main(parser.parse_args())

@@ -1,11 +1,11 @@
 """What feathers on hinges do to stability: softer, slack at zero or pre-twisted against the air.
 
-`python examples/bird_feathers.py [DIR]` prints the table of docs/compliance.md about them and keeps
-it in DIR (default results/) as CSV.
+`python examples/bird_feathers.py [DIR] [--coarse]` prints the table of docs/compliance.md about
+them and keeps it in DIR (default results/) as CSV.
 """
 
+import argparse
 import csv
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -41,10 +41,12 @@ def flown(bird: birdmb.Bird) -> list[str]:
     return cells
 
 
-def main(directory: Path) -> None:
+def main(directory: Path, *, coarse: bool) -> None:
     """Print and keep the table."""
     console = Console(width=100)
-    bird = birdmb.load_bird(TOPOLOGY).with_values({"wing.discretisation": ELEMENTS})
+    bird = birdmb.load_bird(TOPOLOGY).with_values(
+        {"wing.discretisation": 4 if coarse else ELEMENTS}
+    )
     torques = mean_torques(bird)
     console.print(
         "mean torque of the air about the hinges at zero: "
@@ -61,7 +63,7 @@ def main(directory: Path) -> None:
         table.add_row(*rows[-1])
 
     for slack, moments in (("zero", 0 * torques), ("-torque/k", -torques)):
-        for k in STIFFNESSES:
+        for k in STIFFNESSES[-1:] if coarse else STIFFNESSES:
             values = {f"feathers.{name}.hinge.stiffness": k for name in FEATHERS}
             for name, moment in zip(FEATHERS, moments, strict=True):
                 values[f"feathers.{name}.hinge.rest"] = moment / k
@@ -75,4 +77,8 @@ def main(directory: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1] if len(sys.argv) > 1 else "results"))
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("directory", nargs="?", type=Path, default=Path("results"))
+    parser.add_argument("--coarse", action="store_true", help="few flights, coarse wings: quick")
+    options = parser.parse_args()
+    main(options.directory, coarse=options.coarse)

@@ -1,11 +1,12 @@
 """Is a bird without a fin laterally stable? The modes of the ibis in space, and what moves them.
 
-`python examples/bird_lateral.py [DIR]` prints the tables of docs/lateral.md and draws its picture
-into DIR (default results/).
+`python examples/bird_lateral.py [DIR] [--coarse]` prints the tables of docs/lateral.md and draws
+its picture into DIR (default results/).
 """
 
-import sys
-from collections.abc import Mapping
+import argparse
+from collections.abc import Mapping, Sequence
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -115,12 +116,12 @@ def turning(bird: birdmb.Bird) -> Table:
     return table
 
 
-def shoulders(bird: birdmb.Bird) -> Table:
+def shoulders(bird: birdmb.Bird, stiffnesses: Sequence[float] = STIFFNESSES) -> Table:
     """Flights with wings of some mass, whose shoulders are sprung, each by itself."""
     table = columns(f"Shoulders free of each other, {DAMPING:g} N m s/rad")
     row(table, "wings without mass, prescribed", bird)
     row(table, "with mass, prescribed", bird, birdmb.MultibodyModel)
-    for stiffness in STIFFNESSES:
+    for stiffness in stiffnesses:
         sprung = bird.with_joint(FLAP, stiffness=stiffness, damping=DAMPING)
         row(table, f"{stiffness:g} N m/rad", sprung, birdmb.MultibodyModel)
     return table
@@ -171,16 +172,20 @@ def picture(parts: np.ndarray, by_mode: Mapping[str, np.ndarray]) -> Figure:
     return figure
 
 
-def main() -> None:
+def main(out: Path, *, coarse: bool) -> None:
     """Print the tables, and draw the picture."""
-    out = Path(sys.argv[1] if len(sys.argv) > 1 else "results")
     out.mkdir(parents=True, exist_ok=True)
     console = Console(width=180)
-    tailed = birdmb.load_bird(TOPOLOGIES / "ibis_tail.toml")
+    tailless, tailed = (
+        birdmb.load_bird(TOPOLOGIES / f"{name}.toml").with_values(
+            {"wing.discretisation": 4} if coarse else {}
+        )
+        for name in ("ibis", "ibis_tail")
+    )
     furled = tailed.with_values({"tail.opening_deg": 0.0})
     table = columns("Flapping and gliding, |multiplier| per beat of 0.25 s")
     for name, bird in (
-        ("thesis's bird, chapter 5: no tail, no drag", birdmb.load_bird(TOPOLOGIES / "ibis.toml")),
+        ("thesis's bird, chapter 5: no tail, no drag", tailless),
         ("chapter 6, tail furled", furled),
         ("chapter 6, tail spread to 40 deg", tailed),
         ("the same, gliding, furled", beating(furled, 0.0)),
@@ -189,16 +194,17 @@ def main() -> None:
         row(table, name, bird)
     console.print(table)
     table = columns("Chapter 6's bird, flapping, tail spread: one value changed")
-    for name, values in VARIATIONS.items():
+    for name, values in islice(VARIATIONS.items(), 2 if coarse else None):
         row(table, name, tailed.with_values(values))
     console.print(table)
     table = columns("The same, by the number of elements a wing")
-    for elements in (16, 32, 64):
+    for elements in (4, 8) if coarse else (16, 32, 64):
         row(table, str(elements), tailed.with_values({"wing.discretisation": elements}))
     console.print(table)
-    for table in (shoulders(tailed), uneven(tailed), turning(tailed)):
+    sprung = shoulders(tailed, STIFFNESSES[:1] if coarse else STIFFNESSES)
+    for table in (sprung, uneven(tailed), turning(tailed)):
         console.print(table)
-    parts = np.linspace(0.0, 1.0, 21)
+    parts = np.linspace(0.0, 1.0, 3 if coarse else 21)
     slow = moduli(tailed, parts)
     first = int(np.argmax(slow["spiral"] > 1.0))
     part = np.interp(1.0, slow["spiral"][first - 1 : first + 1], parts[first - 1 : first + 1])
@@ -207,4 +213,8 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("directory", nargs="?", type=Path, default=Path("results"))
+    parser.add_argument("--coarse", action="store_true", help="few flights, coarse wings: quick")
+    options = parser.parse_args()
+    main(options.directory, coarse=options.coarse)

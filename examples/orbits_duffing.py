@@ -26,6 +26,7 @@ def duffing(frequency: float, damping: float = 0.2, force: float = 0.3) -> OdeMo
 
 
 def main(directory: Path) -> None:
+    directory.mkdir(parents=True, exist_ok=True)
     branch = continue_branch(
         duffing,
         (0.6, 2.0),

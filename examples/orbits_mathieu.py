@@ -23,6 +23,7 @@ def mathieu(a: float, q: float, damping: float = 0.0) -> OdeModel:
 
 
 def main(directory: Path) -> None:
+    directory.mkdir(parents=True, exist_ok=True)
     for a, q in ((1, 0.5), (2, 1), (3, 2), (4, 5)):
         orbit = floquet(mathieu(a, q), [0.0, 0.0], segments=5)
         pair = ", ".join(f"{value:.9f}" for value in orbit.multipliers)

@@ -34,6 +34,7 @@ def redox(p: float = 1.0) -> OdeModel:
 
 
 def main(directory: Path) -> None:
+    directory.mkdir(parents=True, exist_ok=True)
     cycle = find_limit_cycle(
         redox(), period_guess=23.0, segments=4, damping="levenberg-marquardt", tolerance=1e-7
     )

@@ -1,9 +1,9 @@
 """Roessler's system: an autonomous cycle, its period doubling, and the chaos beyond.
 
-Run `python examples/orbits_roessler.py [DIRECTORY]`; the figures go to the directory.
+Run `python examples/orbits_roessler.py [DIRECTORY] [--coarse]`; the figures go to the directory.
 """
 
-import sys
+import argparse
 from pathlib import Path
 
 from birdmb.orbits import (
@@ -25,7 +25,8 @@ def roessler(c: float, a: float = 0.15, b: float = 0.2) -> OdeModel:
     )
 
 
-def main(directory: Path) -> None:
+def main(directory: Path, *, coarse: bool) -> None:
+    directory.mkdir(parents=True, exist_ok=True)
     cycle = find_limit_cycle(roessler(3.5), period_guess=5.9, segments=2)
     print(f"c = 3.5: period {cycle.period:.8f}, {cycle.stability}")
     for value, error in zip(cycle.multipliers, cycle.multiplier_errors, strict=True):
@@ -33,15 +34,23 @@ def main(directory: Path) -> None:
     cycle.plot().savefig(directory / "roessler_cycle.png")
 
     branch = continue_branch(
-        roessler, (3.5, 5.0), period_guess=5.9, parameter_name="c", steps=Steps(longest=0.2)
+        roessler,
+        (3.5, 4.2 if coarse else 5.0),
+        period_guess=5.9,
+        parameter_name="c",
+        steps=Steps(longest=0.2),
     )
     for found in branch.bifurcations:
         print(f"{found.kind} at c = {found.parameter:.7f} +- {found.parameter_error:.1e}")
     branch.plot("y").savefig(directory / "roessler_branch.png")
 
-    chaos = largest_lyapunov_exponent(roessler(10.0), [1.0, 1.0, 0.0], 6.0, 200)
+    chaos = largest_lyapunov_exponent(roessler(10.0), [1.0, 1.0, 0.0], 6.0, 20 if coarse else 200)
     print(f"c = 10: largest Lyapunov exponent {chaos.exponent:.4f} +- {chaos.error:.4f}")
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1] if len(sys.argv) > 1 else "."))
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("directory", nargs="?", type=Path, default=Path())
+    parser.add_argument("--coarse", action="store_true", help="a rough exponent: quick")
+    options = parser.parse_args()
+    main(options.directory, coarse=options.coarse)

@@ -53,6 +53,7 @@ def main(file: Path) -> None:
             row += ["" if hidden else f"{value:.4f}" for value in seen]
         rows.append(row)
     header = ["time", *(f"{name}_{axis}" for name in points(model, 0.0) for axis in "xyz")]
+    file.parent.mkdir(parents=True, exist_ok=True)
     with file.open("w", newline="", encoding="utf-8") as out:
         csv.writer(out).writerows([header, *rows])
 

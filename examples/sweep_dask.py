@@ -1,10 +1,11 @@
 """One study on a local Dask cluster and on the package's own processes: the same to the last bit.
 
 Run `pip install 'birdmb[dask]'` (in a checkout: `pip install '.[dask]'`), then
-`python examples/sweep_dask.py [DIRECTORY]`; stores and figure go to the directory. On a real
-cluster only the lines that make the `Client` change.
+`python examples/sweep_dask.py [DIRECTORY] [--coarse]`; stores and figure go to the directory.
+On a real cluster only the lines that make the `Client` change.
 """
 
+import argparse
 import sys
 from functools import partial
 from pathlib import Path
@@ -17,11 +18,12 @@ COMPLIANT = Path(__file__).parent.parent / "topologies" / "ibis_compliant_should
 VARY = {"shoulder.flap.stiffness": [60, 50, 40, 30], "shoulder.flap.damping": [0.2, 0.1]}
 
 
-def main(directory: Path) -> None:
+def main(directory: Path, *, coarse: bool) -> None:
     directory.mkdir(parents=True, exist_ok=True)
     # A coarse wing, so that the example takes a minute.
-    bird = birdmb.load_bird(COMPLIANT).with_values({"wing.discretisation": 8})
-    run = partial(birdmb.sweep, bird, VARY, model=partial(birdmb.MultibodyModel, steps_per_beat=60))
+    bird = birdmb.load_bird(COMPLIANT).with_values({"wing.discretisation": 4 if coarse else 8})
+    vary = {name: values[:2] for name, values in VARY.items()} if coarse else VARY
+    run = partial(birdmb.sweep, bird, vary, model=partial(birdmb.MultibodyModel, steps_per_beat=60))
 
     with (
         LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
@@ -39,4 +41,8 @@ def main(directory: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1] if len(sys.argv) > 1 else "results"))
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("directory", nargs="?", type=Path, default=Path("results"))
+    parser.add_argument("--coarse", action="store_true", help="few flights, coarse wings: quick")
+    options = parser.parse_args()
+    main(options.directory, coarse=options.coarse)

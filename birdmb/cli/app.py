@@ -28,7 +28,7 @@ from birdmb.cli.options import (
     Topology,
     number,
 )
-from birdmb.cli.outcome import reported
+from birdmb.cli.outcome import InputError, reported
 from birdmb.cli.study_commands import commands as study_commands
 
 _LARGEST = 1e15  # of all numbers in a topology file
@@ -129,6 +129,14 @@ def cycle(
             metavar="N", help="Which flight of a branch to start from: 1 the first, -1 the last."
         ),
     ] = None,
+    memory: Annotated[
+        bool,
+        typer.Option(
+            "--memory",
+            help="Fly the bird once more with the other air.wake, unsteady or quasi-steady, and "
+            "say what the memory of the air changes.",
+        ),
+    ] = False,
 ) -> None:
     """Find the limit cycle of a bird, its Floquet multipliers, speed and power.
 
@@ -160,6 +168,7 @@ def cycle(
             guess=requested_guess(guess, point),
             out=out,
             as_json=json,
+            with_memory=memory,
         )
 
 
@@ -319,15 +328,53 @@ def schema(
 
 
 @app.command(
-    epilog="Exit status: 0; 2 wrong option; 130 interrupted. Takes a minute or two.\n\n"
-    "Example: birdmb validate"
+    epilog="Exit status: 0 all that should agree does; 1 something does not; 2 wrong option; "
+    "130 interrupted.\n\nExamples:\n\nbirdmb validate\n\nbirdmb validate --chapter 5 --json"
+    "\n\nbirdmb validate --experiments --case A"
 )
-def validate() -> None:
-    """Print what the thesis published against what is computed here, with the command behind it."""
-    with reported(as_json=False):
+def validate(
+    chapter: Annotated[
+        str | None,
+        typer.Option(metavar="N", help="This chapter (5) or appendix (A) only."),
+    ] = None,
+    long: Annotated[bool, typer.Option("--all", help="Those that take minutes, too.")] = False,
+    experiments: Annotated[
+        bool,
+        typer.Option(
+            "--experiments",
+            help="Experiments, exact solutions and other authors' computations instead, with "
+            "quasi-steady and unsteady air (docs/validation.md).",
+        ),
+    ] = False,
+    case: Annotated[
+        str | None, typer.Option(metavar="LETTER", help="This experiment only, such as A.")
+    ] = None,
+    json: Json = False,
+    markdown: Annotated[
+        bool, typer.Option("--markdown", help="Print the tables of docs/thesis.md.")
+    ] = False,
+) -> None:
+    """Print what the thesis published against what is computed here, with the command behind it.
+
+    Each number passes within its tolerance; else it differs, or the thesis contradicts itself or
+    its own program, with the reason. Takes half a minute, with --all some minutes, with
+    --experiments a few. `python -m birdmb.reproduction` draws figures and tables.
+    """
+    with reported(as_json=json):
+        if experiments:
+            if chapter is not None or long or markdown:
+                raise InputError("--experiments goes with --case and --json alone.")
+
+            from birdmb.cli.experiments import run as run_experiments  # noqa: PLC0415 - slow
+
+            run_experiments(case, as_json=json)
+            return
+        if case is not None:
+            raise InputError("--case chooses an experiment; give --experiments with it.")
+
         from birdmb.cli.validate import run  # noqa: PLC0415 - slow to import
 
-        run()
+        run(chapter, long=long, as_json=json, as_markdown=markdown)
 
 
 app.add_typer(study_commands)

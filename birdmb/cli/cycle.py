@@ -21,8 +21,8 @@ from birdmb.cli.results import (
     result_object,
 )
 from birdmb.cli.searching import TRIM, Search, announce, found_flight, model_of, other_flights
-from birdmb.errors import OutputError
-from birdmb.studies import assess_validity
+from birdmb.errors import BirdmbError, OutputError
+from birdmb.studies import assess_validity, memory_effect
 
 if TYPE_CHECKING:
     from birdmb.cli.saved_guess import SavedGuess
@@ -33,7 +33,13 @@ if TYPE_CHECKING:
 
 
 def run(
-    bird: Bird, search: Search, *, guess: SavedGuess | None, out: Path | None, as_json: bool
+    bird: Bird,
+    search: Search,
+    *,
+    guess: SavedGuess | None,
+    out: Path | None,
+    as_json: bool,
+    with_memory: bool,
 ) -> None:
     """Find the limit cycle, report it on standard output and write it into `out`."""
     if out is not None:
@@ -49,10 +55,15 @@ def run(
             **result_object(cycle, validity, search.model),
             "other_flights": None if others is None else list(map(mean_flight, others)),
         }
+        effect = None
+        if with_memory:
+            effect, found["memory"] = _of_memory(cycle, progress)
     if not as_json:
         print_report(output(), cycle, validity)
         if others:
             output().print(other_flights_sentence(others), highlight=False)
+        if effect is not None:
+            output().print(effect, highlight=False)
     written: list[Path] = []
     if out is not None:
         try:
@@ -71,6 +82,30 @@ def run(
     if cycle.why_no_flight is not None:
         progress.line(f"No flight found. What to do next: {TRIM}.")
         raise typer.Exit(NO_CYCLE)
+
+
+def _of_memory(cycle: FlightCycle, progress: Progress) -> tuple[str, dict[str, object]]:
+    """What the memory of the air changes, as a sentence and as an object for JSON."""
+    progress.doing("the flight in the other air")
+    try:
+        effect = memory_effect(cycle)
+    except BirdmbError as error:
+        why = f"Nothing can be said of the memory of the air: {error}"
+        return why, {"error": str(error)}
+    flights = {"unsteady": effect.unsteady, "quasi-steady": effect.quasi_steady}
+    return str(effect), {
+        "changes_verdict": effect.changes_verdict,
+        "multiplier_change": effect.multiplier_change,
+        **{
+            name: {
+                **mean_flight(flight),
+                "stability": flight.stability,
+                "largest_multiplier": float(abs(flight.multipliers).max()),
+                "corrected_power": flight.corrected_power,
+            }
+            for name, flight in flights.items()
+        },
+    }
 
 
 def _found(

@@ -169,8 +169,10 @@ def _flown(model: BirdModel) -> str:
 
 
 def _steps(model: BirdModel) -> str:
-    stiff = " of Radau IIA: stiff joints" if model.integration_method == "implicit" else ""
-    return f"{model.steps_per_beat} steps a beat{stiff}"
+    if model.integration_method == "explicit":
+        return f"{model.steps_per_beat} steps a beat"
+    stiff = "joints or lags" if model.wake.count else "joints"
+    return f"{model.steps_per_beat} steps a beat of Radau IIA: stiff {stiff}"
 
 
 def _joints(cycle: FlightCycle) -> Table:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from birdmb.cli.outcome import InputError
+from birdmb.quantities import BY_NAME, IN_DEGREES
 from birdmb.studies.sweeps.grid import MOST_POINTS
 from birdmb.studies.sweeps.settings import Trimming
 from birdmb.topology import Bird, parse_assignment
@@ -79,6 +80,28 @@ def requested_bounds(
         wanted = "a climb rate" if targets == 1 else "a climb rate and a speed"
         raise InputError(f"{option}: {wanted} needs {targets} parameter(s), not {len(bounds)}.")
     return bounds
+
+
+def requested_limits(texts: Sequence[str]) -> dict[str, float]:
+    """Largest moduli by name of `NAME=LARGEST`, in SI units and rad; of `_deg` in degrees.
+
+    Raises:
+        InputError: a limit is none, or a name is given twice.
+    """
+    limits: dict[str, float] = {}
+    for text in texts:
+        name, _, listed = (part.strip() for part in text.partition("="))
+        try:
+            largest = float(listed)
+        except ValueError:
+            largest = math.nan
+        if not 0.0 <= largest < math.inf or name in limits:
+            raise InputError(
+                f'--limit "{text}" must read NAME=LARGEST, each name once, as in mean_pitch=6.'
+            )
+        in_rad = name in BY_NAME and BY_NAME[name].unit in IN_DEGREES
+        limits[name] = math.radians(largest) if in_rad else largest
+    return limits
 
 
 def _list(name: str, listed: str) -> list[Any]:

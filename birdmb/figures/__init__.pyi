@@ -1,6 +1,6 @@
 from .bird_branch import plot_bird_branch
 from .branch import plot_branch, plot_stability_boundary
-from .gust import plot_gust_response
+from .gust import plot_gust_response, plot_gust_states
 from .kinematics import plot_kinematics
 from .loads import plot_loads_and_power
 from .multipliers import plot_multipliers
@@ -20,6 +20,7 @@ __all__ = [
     "plot_branch",
     "plot_envelope",
     "plot_gust_response",
+    "plot_gust_states",
     "plot_kinematics",
     "plot_loads_and_power",
     "plot_manifold",

@@ -8,6 +8,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from birdmb._typing import FloatArray
 from birdmb.figures.style import symbol
 from birdmb.text import in_figure
 
@@ -26,7 +27,8 @@ def plot_gust_response(data: xr.Dataset) -> Figure:
         wind = data["gust"].sel(direction=name)
         if wind.values.any():
             rows[0, 0].plot(time, wind, color=colour, label=name)
-    rows[0, 0].set_ylabel("gust (m/s)")
+    along = ", body axes" if data.attrs["axes"] == "body" else ""
+    rows[0, 0].set_ylabel(f"gust{along} (m/s)")
     rows[0, 0].legend(frameon=False, fontsize="small")
     rows[0, 1].plot(time, data["h"] - data["orbit_h"], color="tab:blue")
     rows[0, 1].set_ylabel("height gained (m)")
@@ -43,6 +45,46 @@ def plot_gust_response(data: xr.Dataset) -> Figure:
     figure.align_ylabels(rows)
     figure.suptitle(f"{in_figure(data.attrs['bird'])}: flight through a gust", fontsize="medium")
     return figure
+
+
+def plot_gust_states(data: xr.Dataset) -> Figure:
+    """Draw the body's states in a `gust_response`, and those of the limit cycle without the gust.
+
+    Thin where they are over a beat, thick their running mean over one.
+    """
+    figure = Figure(figsize=(10, 6), layout="constrained")
+    panels = figure.subplots(2, 2, sharex=True)
+    time = data["time"].values
+    beat = int(np.searchsorted(time, time[0] + data.attrs["period"] * (1 - 1e-9)))
+    for axes, (name, (unit, scale)) in zip(panels.ravel(), _PANELS.items(), strict=True):
+        for variable, colour, label in (
+            ("orbit", "0.6", "without the gust"),
+            ("states", "tab:blue", "in the gust"),
+        ):
+            values = scale * data[variable].sel(state=name).values
+            axes.plot(time, values, color=colour, lw=0.6, alpha=0.7)
+            axes.plot(*_running_mean(time, values, beat), color=colour, lw=2, label=label)
+        axes.set_ylabel(f"{symbol(name)} ({unit})")
+        axes.spines[["top", "right"]].set_visible(False)
+        axes.set_xlim(time[0], time[-1])
+    for axes in panels[-1]:
+        axes.set_xlabel("time (s)")
+    panels[0, 0].legend(frameon=False, fontsize="small")
+    figure.align_ylabels(panels)
+    figure.suptitle(
+        f"{in_figure(data.attrs['bird'])}: states in a gust (thick: mean over a beat)",
+        fontsize="medium",
+    )
+    return figure
+
+
+def _running_mean(
+    times: FloatArray, values: FloatArray, width: int
+) -> tuple[FloatArray, FloatArray]:
+    """Means over `width` intervals of values (K,) at even times, at the middles of these."""
+    ends = np.concatenate([[0.0], np.cumsum(0.5 * (values[1:] + values[:-1]))])
+    middles = 0.5 * (times[width:] + times[:-width])
+    return middles, (ends[width:] - ends[:-width]) / width
 
 
 def _deviation(axes: Axes, data: xr.Dataset, scale: float) -> None:

@@ -118,6 +118,11 @@ def _left(study: xr.Dataset, at: Mapping[str, Any]) -> tuple[xr.Dataset, list[st
     return plane, [", ".join(texts)] if texts else []
 
 
+def parameter_label(name: str) -> str:
+    """Name of a parameter with its unit, as an axis is labelled."""
+    return _label(name)[1]
+
+
 def _label(name: str) -> tuple[str, str]:
     """Name of a parameter without its unit, and with it."""
     plain = in_figure(name.removesuffix("_deg"))

@@ -127,9 +127,9 @@ class Carrier:
         self._raised: BaseException | None = None
 
     def callback(
-        self, function: Callable[P, FloatArray], size: int
+        self, function: Callable[P, FloatArray], shape: tuple[int, ...]
     ) -> Callable[Concatenate[object, P], FloatArray]:
-        """A callback that returns NaN (size,) once a callback of this carrier has raised.
+        """A callback that returns NaN of a `shape` once a callback of this carrier has raised.
 
         The first argument, the system, is not passed on.
         """
@@ -144,7 +144,7 @@ class Carrier:
                         _gate.shut()
                 except BaseException as error:
                     self._raised = error
-            return np.full(size, np.nan)
+            return np.full(shape, np.nan)
 
         return guarded
 

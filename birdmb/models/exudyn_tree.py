@@ -2,37 +2,29 @@
 
 Coordinates: those of the body (`birdmb.models.tree_coordinates`), in space or in the plane of
 symmetry, then the joints of the right wing in chain order and the hinges of its feathers, then
-those of the left. Prescribed joints are held to their drivers by a driven inertia: a second object
-on the same node whose mass matrix is B on them alone, with a force of B times the driver's
-acceleration. No constraint is left, so Exudyn's explicit integrators apply, and a prescribed joint
-strays from its driver by no more than its loads over B.
+those of the left.
 """
 
 from __future__ import annotations
 
-import inspect
-import weakref
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import Any, TypeVar, cast
+from typing import Any
 
 import exudyn as exu
 import numpy as np
-from exudyn.itemInterface import NodeGenericODE2, ObjectGenericODE2, ObjectKinematicTree
+from exudyn.itemInterface import NodeGenericODE2, ObjectKinematicTree
 from scipy.spatial.transform import Rotation
 
-from birdmb._typing import BoolArray, FloatArray, IntArray
-from birdmb.errors import StateError
-from birdmb.models.compiled_calls import COMPILED, Carrier, calls_compiled_code
+from birdmb._typing import FloatArray, IntArray
+from birdmb.models.compiled_calls import COMPILED
 from birdmb.models.feather_rods import FeatherRod, feather_rods
 from birdmb.models.tree_coordinates import IN_PLANE
 from birdmb.models.tree_kernel import TreeLinks
 from birdmb.topology import Bird
 from birdmb.topology.inertia import joined, steiner
 
-# Of the bird's own: a prescribed joint strays by one part of this, and round-off does not matter.
-_DRIVEN_INERTIA = 1e13
 _NEXT_TO_NO_MASS = 1e-30
 _MIRROR = np.diag([1.0, -1.0, 1.0])
 _SPAN = np.array([0.0, 1.0, 0.0])
@@ -42,11 +34,6 @@ _TURNS = np.eye(3)[::-1]  # axes of yaw, pitch and roll
 _DIRECTION = np.array([0, 1, 2, 5, 4, 3])
 _MASS_MATRIX = exu.ComputeItemType.MassMatrix
 _LEFT_HAND_SIDE = exu.ComputeItemType.ODE2LHS
-
-# (t, coordinates, velocities) -> generalised forces or accelerations, all (n,)
-CoordinateFunction = Callable[[float, FloatArray, FloatArray], FloatArray]
-TimeFunction = Callable[[float], FloatArray]
-Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 @dataclass
@@ -181,7 +168,7 @@ def tree_links(bird: Bird, body_coordinates: IntArray, *, is_mirrored: bool) -> 
     )
 
 
-def _add_tree(mbs: Any, links: Sequence[_Link], gravity: float, **options: Any) -> tuple[Any, Any]:
+def add_tree(mbs: Any, links: Sequence[_Link], gravity: float, **options: Any) -> tuple[Any, Any]:
     """Put the links into a system; the numbers of the node of their coordinates and of the tree."""
     zeros = [0.0] * len(links)
     node = mbs.AddNode(
@@ -222,7 +209,7 @@ class TreeInertia:
         self.size, self.body_coordinates = len(links), body_coordinates
         self._container = exu.SystemContainer()
         self._mbs = self._container.AddSystem()
-        _, self._tree = _add_tree(self._mbs, links, bird.gravity)
+        _, self._tree = add_tree(self._mbs, links, bird.gravity)
         self._mbs.Assemble()
 
     def at(self, q: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -242,104 +229,9 @@ class TreeInertia:
         return mass, bias
 
 
-class ExudynBird:
-    """The assembled bird, ready to be integrated.
-
-    Args:
-        bird: the bird.
-        body_coordinates: as for `bird_links`.
-        forces: generalised forces (n,) on all coordinates but gravity and inertia.
-        prescribed: which coordinates follow an acceleration given in time.
-        driver: their accelerations (n,) at a time; entries of free coordinates are not read.
-    """
-
-    def __init__(
-        self,
-        bird: Bird,
-        body_coordinates: IntArray,
-        forces: CoordinateFunction,
-        prescribed: BoolArray,
-        driver: TimeFunction,
-    ) -> None:
-        self._carrier = Carrier()
-        links = bird_links(bird, body_coordinates)
-        n = len(links)
-        self._container = exu.SystemContainer()
-        self.mbs = self._container.AddSystem()
-
-        # Exudyn keeps these functions out of the garbage collector's sight: what they held
-        # strongly, this object or the model, would never be freed.
-        call_forces, call_driver = _weakly(forces), _weakly(driver)
-
-        inertia = np.where(
-            prescribed, _DRIVEN_INERTIA * typical_inertias(bird, body_coordinates, n), 0.0
-        )
-
-        # The driven inertia's force acts on the same coordinates: one call instead of two.
-        def tree_forces(t: float, _item: int, q: Sequence[float], v: Sequence[float]) -> FloatArray:
-            driving = inertia * call_driver()(t)
-            return call_forces()(t, np.array(q), np.array(v)) + driving
-
-        node, _ = _add_tree(
-            self.mbs,
-            links,
-            bird.gravity,
-            forceUserFunction=self._carrier.callback(tree_forces, n),
-        )
-        if prescribed.any():
-            self.mbs.AddObject(ObjectGenericODE2(nodeNumbers=[node], massMatrix=np.diag(inertia)))
-        self.mbs.Assemble()
-        self._settings = _quiet_settings()
-
-    @calls_compiled_code
-    def integrate(
-        self, q: FloatArray, v: FloatArray, t0: float, t1: float, steps: int
-    ) -> tuple[FloatArray, FloatArray]:
-        """Coordinates and velocities (n,) at t1 after `steps` steps of RK67 (order 6) from t0.
-
-        Not finite where the motion diverges. Raises what `forces` and `driver` raised.
-        """
-        data = self.mbs.systemData
-        initial = exu.ConfigurationType.Initial
-        data.SetODE2Coordinates(q, initial)
-        data.SetODE2Coordinates_t(v, initial)
-        time = self._settings.timeIntegration
-        time.startTime, time.endTime, time.numberOfSteps = t0, t1, steps
-        self._call(
-            self.mbs.SolveDynamic,
-            self._settings,
-            solverType=exu.DynamicSolverType.RK67,
-            storeSolver=False,
-        )
-        return np.array(data.GetODE2Coordinates()), np.array(data.GetODE2Coordinates_t())
-
-    def _call(self, compiled: Callable[..., Any], *args: Any, **options: Any) -> Any:
-        try:
-            return self._carrier.call(compiled, *args, **options)
-        except exu.ExudynError as error:
-            raise StateError(f"Exudyn stopped: {' '.join(str(error).split())}") from error
-
-
 def typical_inertias(bird: Bird, body_coordinates: IntArray, size: int) -> FloatArray:
     """Mass (kg) or moment of inertia (kg m2) that is typical of each coordinate, (size,)."""
     length = sum(segment.length for _, segment in bird.segments.items())
     typical = np.full(size, bird.total_mass * length**2)
     typical[: np.count_nonzero(body_coordinates < len(_SLIDES))] = bird.total_mass
     return typical
-
-
-def _weakly(function: Function) -> Callable[[], Function]:
-    """How to get at a function that is kept alive by its object, if it is a method of one."""
-    if inspect.ismethod(function):
-        return cast("Callable[[], Function]", weakref.WeakMethod(function))
-    return lambda: function
-
-
-def _quiet_settings() -> exu.SimulationSettings:
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.verboseMode = 0
-    settings.timeIntegration.explicit.computeEndOfStepAccelerations = False
-    settings.solution.file.write = False
-    settings.solution.sensors.active = False
-    settings.parallel.numberOfThreads = 1
-    return settings

@@ -41,7 +41,7 @@ class GaussianGust:
     Attributes:
         vertical: largest upwards velocity, m/s.
         horizontal: largest forwards velocity, m/s.
-        time: when it is strongest, s; as in the thesis, chapter 6.
+        time: when it is strongest, s.
         width: standard deviation, s.
         lateral: largest velocity to the right, m/s; in the plane of symmetry there is none.
     """

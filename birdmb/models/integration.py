@@ -52,7 +52,7 @@ def fastest_eigenvalue(model: _Stiff) -> float:
 
 
 def integration_for(model: _Stiff, steps_wanted: int | None, integrator: Integrator) -> Integration:
-    """Choose method and steps per beat by the fastest motion of the compliant joints.
+    """Choose method and steps per beat by the fastest motion of compliant joints and lags.
 
     Explicit steps follow the fastest motion, a multiple of the default. Where that takes too many,
     the motion is stiff: implicit steps of the default number pass over it once it has died out.

@@ -37,8 +37,9 @@ class MultibodyModel(TreeModel):
     is u, v, w is the centre of mass of the body without its wings.
 
     Integrated with fixed steps, for shooting needs a flow that is smooth in the initial state: by
-    Exudyn's explicit RK67 (order 6) with as many steps as the fastest motion of the joints needs,
-    or, where that would be too many, by implicit Radau IIA (order 5). `integration` tells which.
+    Exudyn's explicit RK67 (order 6) with as many steps as the fastest motion of the joints and of
+    the air's lags needs, or, where that would be too many, by implicit Radau IIA (order 5).
+    `integration` tells which.
 
     Args:
         bird: the bird.

@@ -209,7 +209,7 @@ class RigidModel(BirdModel):
 
     def initial_guess(self) -> FloatArray:
         """State (n,) in which the loads, averaged over a beat, come closest to balance."""
-        return self._with_lags(np.zeros(1), self._first_guess[None])[0]
+        return self.with_lags(np.zeros(1), self._first_guess[None])[0]
 
     def guess_along(self, times: FloatArray) -> FloatArray:
         """A guess (K, n) of a limit cycle at `times` (K,) s: the initial guess, held steadily.
@@ -217,14 +217,14 @@ class RigidModel(BirdModel):
         Times that are spread evenly over a beat, and are not few, serve for the means as well.
         """
         guess = self._trim(times) if self._span_a_beat(times) else self._first_guess
-        return self._with_lags(times, np.tile(guess, (times.size, 1)))
+        return self.with_lags(times, np.tile(guess, (times.size, 1)))
 
-    def _with_lags(self, times: FloatArray, body: FloatArray) -> FloatArray:
-        """States (K, n) of those of the body (K, m): with the lags that its motion settles at."""
+    def with_lags(self, times: FloatArray, motion: FloatArray) -> FloatArray:
+        """States (K, n) of those of the body (K, m): with the lags that these settle at."""
         if not self.wake.count:
-            return body
-        own, attached = body.shape[1], np.tile(self.wake.attached, (len(body), 1))
-        states = np.hstack([body, attached])
+            return motion
+        own = motion.shape[1]
+        states = np.hstack([motion, np.tile(self.wake.attached, (len(motion), 1))])
         table, phase = self._table_for(times)
         rates, slopes = self._along(table, phase, times, states, slopes_wanted=True)
         states[:, own:] = self.wake.settled(rates[:, own:], slopes[:, own:, own:])
@@ -242,7 +242,7 @@ class RigidModel(BirdModel):
         if self.motion is not PLANAR:
             found = np.vstack([found, steady_turns(found, self.bird.gravity)])
         for state in found[:, self.motion.indices]:
-            yield self._with_lags(times, np.tile(state, (times.size, 1)))
+            yield self.with_lags(times, np.tile(state, (times.size, 1)))
 
     def _span_a_beat(self, times: FloatArray) -> bool:
         if times.size < _PHASES:

@@ -52,6 +52,31 @@ def _spin_per_rate(q: FloatArray) -> FloatArray:
 
 
 @kernel
+def spin_change(q: FloatArray, v: FloatArray) -> FloatArray:
+    """Angular acceleration (3,) along the body's axes where yaw, pitch and roll do not accelerate.
+
+    At coordinates q and velocities v (6,): the change of p, q and r.
+    """
+    cp, sp, cr, sr = np.cos(q[4]), np.sin(q[4]), np.cos(q[5]), np.sin(q[5])
+    yaw, pitch, roll = v[3:]
+    return np.array(
+        [
+            -cp * pitch * yaw,
+            (cp * cr * roll - sp * sr * pitch) * yaw - sr * roll * pitch,
+            -(cp * sr * roll + sp * cr * pitch) * yaw - cr * roll * pitch,
+        ]
+    )
+
+
+@kernel
+def twist_per_rate(q: FloatArray) -> FloatArray:
+    """Velocity and angular velocity along the body's axes per rate of each coordinate, (6, 6)."""
+    found = np.zeros((6, 6))
+    found[:3, :3], found[3:, 3:] = attitude(q).T, _spin_per_rate(q)
+    return found
+
+
+@kernel
 def space_state(q: FloatArray, v: FloatArray) -> FloatArray:
     """State in space (8,) at coordinates q and velocities v (6,)."""
     state = np.empty(8)

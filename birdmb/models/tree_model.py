@@ -13,7 +13,7 @@ from birdmb.errors import StateError
 from birdmb.models.air_kernel import Motion, Shapes
 from birdmb.models.compiled_calls import COMPILED, calls_compiled_code
 from birdmb.models.determinacy import refuse_undetermined
-from birdmb.models.exudyn_tree import ExudynBird
+from birdmb.models.exudyn_bird import ExudynBird
 from birdmb.models.failures import overflow_told, refuse_runaway
 from birdmb.models.flight import Flight
 from birdmb.models.gusts import Gust
@@ -44,6 +44,7 @@ from birdmb.models.tree_coordinates import (
     state_rates,
     whole,
 )
+from birdmb.models.tree_forces import TreeLoads
 from birdmb.models.tree_rates import TreeRates
 from birdmb.models.wake_states import wake_states, without_memory
 from birdmb.models.wing_model import BirdModel
@@ -107,9 +108,10 @@ class TreeModel(BirdModel):
         self._exudyn = ExudynBird(
             bird,
             self._coordinates_of_body,
-            self._forces,
+            self._loads,
             self.prescribed,
             self.tree.driver_accelerations,
+            self.wake.count,
         )
         self._integration: Integration | None = None
 
@@ -152,7 +154,7 @@ class TreeModel(BirdModel):
 
     @property
     def integration(self) -> Integration:
-        """Method and steps per beat: as wanted, or as the fastest joint motion needs."""
+        """Method and steps per beat: as wanted, or as the fastest joint or lag needs."""
         # Not a cached property: its lock, taken before the one of the calls, could wait for ever.
         with COMPILED:
             if self._integration is None:
@@ -161,10 +163,8 @@ class TreeModel(BirdModel):
 
     @calls_compiled_code
     def _chosen_integration(self) -> Integration:
-        if self.wake.count:
-            steps = super().steps_per_beat
-            return Integration("implicit", steps)
-        if not self.joint_states.compliant.any() and self._integrator == "auto":
+        rigid = not (self.joint_states.compliant.any() or self.wake.count)
+        if rigid and self._integrator == "auto":
             return Integration("explicit", super().steps_per_beat)
         return integration_for(self, self._steps_wanted, self._integrator)
 
@@ -175,7 +175,7 @@ class TreeModel(BirdModel):
 
     @property
     def integration_method(self) -> Literal["explicit", "implicit"]:
-        """Kind of the integration steps: implicit where joints or hinges are stiff."""
+        """Kind of the integration steps: implicit where joints, hinges or lags are stiff."""
         return self.integration.method
 
     @property
@@ -224,8 +224,9 @@ class TreeModel(BirdModel):
     def _advanced(self, x: FloatArray, t0: float, t1: float, steps: int) -> FloatArray:
         if self.integration.method == "implicit":
             return integrate_implicitly(self.rates, x, t0, t1, steps, self.state_scale)
-        q, v = self._exudyn.integrate(*self.coordinates(t0, x), t0, t1, steps)
-        return self._state(q, v, f"between t = {t0:.4g} and {t1:.4g} s")
+        start = *self.coordinates(t0, x), x[self._lags]
+        end = self._exudyn.integrate(*start, t0, t1, steps)
+        return self._state(*end, f"between t = {t0:.4g} and {t1:.4g} s")
 
     def rhs(self, t: float, x: npt.ArrayLike) -> FloatArray:
         """Rates (n,) of the states at t (s), by exact partition of the equations of motion."""
@@ -405,8 +406,8 @@ class TreeModel(BirdModel):
         )
         return q, v
 
-    def _state(self, q: FloatArray, v: FloatArray, when: str) -> FloatArray:
-        if not (np.isfinite(q).all() and np.isfinite(v).all()):
+    def _state(self, q: FloatArray, v: FloatArray, lags: FloatArray, when: str) -> FloatArray:
+        if not all(np.isfinite(each).all() for each in (q, v, lags)):
             raise StateError(
                 f"{self.bird.name}: the flight diverged {when} "
                 f"(integrated with {self.steps_per_beat} steps per beat)."
@@ -415,8 +416,8 @@ class TreeModel(BirdModel):
         space = space_state(whole(q[: body.size], body), whole(v[: body.size], body))
         angles, rates = (each[self._joints].reshape(1, len(SIDES), -1) for each in (q, v))
         (joints,) = self.joint_states.taken(angles, rates)
-        return np.concatenate([space[self.motion.indices], joints])
+        return np.concatenate([space[self.motion.indices], joints, lags])
 
-    def _forces(self, t: float, q: FloatArray, v: FloatArray) -> FloatArray:
-        """Generalised forces (n,) of air, springs and dampers: Exudyn's user function."""
-        return self.tree.forces(t, q, v, self.air_velocities(np.array([t]))[0])
+    def _loads(self, t: float, q: FloatArray, v: FloatArray, lags: FloatArray) -> TreeLoads:
+        """What acts on the tree in Exudyn but gravity and its own inertia."""
+        return self.tree.loads(t, q, v, lags, self.air_velocities(np.array([t]))[0])

@@ -14,7 +14,7 @@ from birdmb.models.instants import Instants, StackedInstants
 from birdmb.models.rates_kernel import free_accelerations
 from birdmb.models.row_groups import groups_of
 from birdmb.models.springs import Springs
-from birdmb.models.tree_forces import tree_forces
+from birdmb.models.tree_forces import TreeLoads, tree_loads
 from birdmb.topology import Bird
 from birdmb.wing.arrays import WingArrays, joint_arrays
 
@@ -85,8 +85,10 @@ class TreeRates:
         self._refuse_misplaced(times, motion.angles, clearance)
         return found, lag_rates
 
-    def forces(self, t: float, q: FloatArray, v: FloatArray, air: FloatArray) -> FloatArray:
-        """Generalised forces (n,) of air, springs and dampers at t (s); see `tree_forces`."""
+    def loads(
+        self, t: float, q: FloatArray, v: FloatArray, lags: FloatArray, air: FloatArray
+    ) -> TreeLoads:
+        """What air, springs and dampers do at t (s); see `tree_loads`."""
         times, body = np.array([t]), self._coordinates.size
         drivers, instants = self.drivers_at(times)
         count = drivers.angles.shape[1]
@@ -96,12 +98,12 @@ class TreeRates:
             angles, rates = drivers.angles, drivers.rates  # any will do: there are no forces
         with overflow_told(self._bird, f"the force of the air at t = {t:.4g} s"):
             shapes = self.shapes_at(instants, times, np.zeros(1, np.int64), angles, rates)
-            forces, clearance = tree_forces(
-                self.constants, shapes, drivers, self._coordinates, q, v, air
+            *loads, clearance = tree_loads(
+                self.constants, shapes, drivers, self._coordinates, q, v, lags, air
             )
         if not clearance.min() >= 0.0:
             self._refuse_misplaced(times, angles, clearance[None])
-        return forces
+        return TreeLoads(*loads)
 
     def driver_accelerations(self, t: float) -> FloatArray:
         """Accelerations (n,) of the drivers, 0 for the body; only prescribed joints follow."""
@@ -160,7 +162,7 @@ class TreeRates:
                 )
             )
             of.append(alike.of)
-        return Shapes((stacks[0], stacks[-1]), np.stack([of[0], of[-1]]))
+        return Shapes((stacks[0], stacks[-1]), np.array((of[0], of[-1])))
 
     def _refuse_misplaced(
         self, times: FloatArray, angles: FloatArray, clearance: FloatArray

@@ -315,6 +315,17 @@ class BirdModel(ABC):
         """The same model, with the same integration, in other air; `None` is still air."""
         return self._altered(steps_per_beat=self.steps_per_beat, gust=gust)
 
+    def in_air(self, *, wake: Literal["quasi-steady", "unsteady"]) -> Self:
+        """The same model, with the same options, in air with a memory or without."""
+        return type(self)(self.bird.with_values({"air.wake": wake}), **self._options())
+
+    @abstractmethod
+    def with_lags(self, times: FloatArray, motion: FloatArray) -> FloatArray:
+        """States (K, n) at `times` (K,) s of those that tell how the bird moves (K, m).
+
+        With the lags that such motions, were they steady, would settle at.
+        """
+
     def _altered(self, **options: Any) -> Self:
         return type(self)(self.bird, **{**self._options(), **options})
 

@@ -89,6 +89,10 @@ def eigenvalues_with_errors(
     grows as a root of the error there.
     """
     n = len(matrix)
+    # Below 1e-138 LAPACK returns eigenvalues in another scale, and squares are lost.
+    size = float(np.abs(matrix).max()) or 1.0
+    with np.errstate(over="ignore"):
+        matrix, error = matrix / size, error / size
     solver_error = n * _EPS * float(np.linalg.norm(matrix))
     values, left, right = cast(
         "tuple[ComplexArray, ComplexArray, ComplexArray]",
@@ -96,11 +100,13 @@ def eigenvalues_with_errors(
     )
     overlap = np.einsum("ik,ik->k", left.conj(), right)
     numerator = np.einsum("ik,ij,jk->k", np.abs(left), error, np.abs(right)) + solver_error
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         first_order = numerator / np.abs(overlap)
         left = left / overlap.conj()
-    errors = np.minimum(first_order, _henrici(matrix, float(np.linalg.norm(error)) + solver_error))
-    return values.astype(complex), errors, right.astype(complex), left.astype(complex)
+        most = _henrici(matrix, float(np.linalg.norm(error)) + solver_error)
+    values = np.asarray(size * values, complex)
+    errors: FloatArray = size * np.minimum(first_order, most)
+    return values, errors, right.astype(complex), left.astype(complex)
 
 
 def _henrici(matrix: FloatArray, size: float) -> float:

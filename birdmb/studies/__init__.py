@@ -4,10 +4,13 @@ from birdmb.studies.branch import bird_branch, flight_observables
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.errors import TrimError
 from birdmb.studies.gust import gust_response
+from birdmb.studies.memory import MemoryEffect, memory_effect
 from birdmb.studies.parameter_study import parameter_study
 from birdmb.studies.perturbed import flight_path, perturbed_flight
 from birdmb.studies.scaling import ScaledBird, scale_bird
-from birdmb.studies.tail import stability_openings, tail_study, within_rules
+from birdmb.studies.stability_opening import stability_openings
+from birdmb.studies.tail import tail_ranges, tail_study, within_limits
+from birdmb.studies.tail_price import price_of_stability
 from birdmb.studies.trim import Trim, TrimGuess, trim_flight
 from birdmb.studies.tunnel import tunnel_and_free_flight
 from birdmb.studies.validity import (
@@ -19,6 +22,7 @@ from birdmb.studies.validity import (
 )
 
 __all__ = [
+    "MemoryEffect",
     "ModelFactory",
     "Overlap",
     "ScaledBird",
@@ -33,12 +37,15 @@ __all__ = [
     "flight_observables",
     "flight_path",
     "gust_response",
+    "memory_effect",
     "parameter_study",
     "perturbed_flight",
+    "price_of_stability",
     "scale_bird",
     "stability_openings",
+    "tail_ranges",
     "tail_study",
     "trim_flight",
     "tunnel_and_free_flight",
-    "within_rules",
+    "within_limits",
 ]

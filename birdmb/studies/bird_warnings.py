@@ -129,7 +129,7 @@ def _on_planform(bird: Bird) -> Iterator[str]:
 
 def _on_regime(bird: Bird) -> Iterator[str]:
     with suppress(StateError):  # of which `_on_wing` tells
-        yield from regime_warnings(flight_regime(bird))
+        yield from regime_warnings(flight_regime(bird), with_memory=bird.air.wake == "unsteady")
 
 
 def _on_overlap(bird: Bird, model: RigidModel, phases: FloatArray) -> Iterator[str]:

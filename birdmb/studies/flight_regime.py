@@ -78,8 +78,8 @@ def flight_regime(bird: Bird) -> FlightRegime:
     )
 
 
-def regime_warnings(regime: FlightRegime) -> Iterator[str]:
-    """A sentence for each number that is outside the theory."""
+def regime_warnings(regime: FlightRegime, *, with_memory: bool = False) -> Iterator[str]:
+    """A sentence for each number that is outside the theory; of air `with_memory` or without."""
     aspect_ratio = regime.aspect_ratio
     if aspect_ratio < LEAST_ASPECT_RATIO:
         yield (
@@ -105,13 +105,13 @@ def regime_warnings(regime: FlightRegime) -> Iterator[str]:
             f"air.kinematic_viscosity."
         )
     k = regime.reduced_frequency
-    if k > LARGEST_REDUCED_FREQUENCY:
+    if k > LARGEST_REDUCED_FREQUENCY and not with_memory:
         deficiency = wake_deficiency(k)
         yield (
             f"the reduced frequency is {k:.2g} {at}, above {LARGEST_REDUCED_FREQUENCY:g}: the "
             f"unsteady wake, which the model leaves out, would leave {abs(deficiency):.0%} of what "
             f"the beat changes of the lift, {-np.degrees(np.angle(deficiency)):.0f} degrees later. "
-            f"Check gait.frequency, or take the loads over a beat for rough."
+            f'Check gait.frequency, or take air.wake = "unsteady".'
         )
 
 

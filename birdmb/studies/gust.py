@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import get_args
 
 import numpy as np
 import xarray as xr
@@ -17,6 +18,7 @@ from birdmb.models import FlightCycle, Gust
 from birdmb.models.gusts import velocity_of
 from birdmb.orbits.multipliers import Spectrum
 from birdmb.orbits.periodic import periodic_multipliers
+from birdmb.studies.body_gust import BodyGust, GustAxes, attitude_along
 from birdmb.studies.perturbed import flight_path
 
 # A table of the linearised model has this many phases for each integration step of a beat.
@@ -24,10 +26,18 @@ _PHASES_PER_STEP = 2
 _STEP = 1e-5  # of the differences, in units of the state scale and in m/s
 _RELATIVE_TOLERANCE = 1e-8
 _ABSOLUTE_TOLERANCE = 1e-10  # of the state scale, for a gust of 1 m/s
+# A gust along the body's axes is flown again with the attitude found, until that stays.
+_MOST_FLIGHTS = 30
+_SETTLED = 1e-8  # of the state scale
 
 
 def gust_response(
-    cycle: FlightCycle, gust: Gust, *, periods: int = 10, samples: int = 60
+    cycle: FlightCycle,
+    gust: Gust,
+    *,
+    axes: GustAxes = "world",
+    periods: int = 10,
+    samples: int = 60,
 ) -> xr.Dataset:
     """Follow a bird from its limit cycle through a gust, and compare with the linear response.
 
@@ -41,32 +51,42 @@ def gust_response(
         gust: velocity of the air (m/s, forwards, upwards and, of a bird in space, to the right)
             at a time (s): `GaussianGust`, `CosineGust`, `StepGust`, or any function; times at which
             it or its slopes jump are looked for in its attribute `discontinuities`.
+        axes: "world" for velocities along the horizon and the vertical, "body" for velocities along
+            the body's x axis, against its z axis and along its y axis, which turn with it.
         periods: beats to follow it, from the cycle's start time on.
         samples: times per beat.
 
     Returns:
         By `time` (s): `states` by the full model (by `state`), the undisturbed `orbit`, their
         difference `deviation`, the `linear` deviation, `gust` (m/s, by `direction`: "forward",
-        "right", "up"), path `X` and height `h` (m) with and (`orbit_X`, `orbit_h`) without the
-        gust, and `Y` to the right where the bird moves in space; by `mode` the part of each in the
-        linear deviation, `mode_deviation` (a conjugate pair is one mode), with `multiplier_real`
-        and `multiplier_imag`. `attrs["failure"]` says why the full model ended early, its states
-        then being NaN; it is empty if it did not.
+        "right", "up", along `axes`), path `X` and height `h` (m) with and (`orbit_X`, `orbit_h`)
+        without the gust, and `Y` to the right where the bird moves in space; by `mode` the part of
+        each in the linear deviation, `mode_deviation` (a conjugate pair is one mode), with
+        `multiplier_real` and `multiplier_imag`. `attrs["failure"]` says why the full model ended
+        early, its states then being NaN; it is empty if it did not.
 
     Raises:
-        ArgumentError: numbers that are not positive, a gust that is no velocity, or a side gust on
-            a bird that flies in its plane of symmetry.
+        ArgumentError: numbers that are not positive, a gust that is no velocity, axes of no such
+            name, a side gust on a bird that flies in its plane of symmetry, or a gust along the
+            body's axes so strong that its attitude does not settle.
     """
     if periods < 1 or samples < 1:
         raise ArgumentError("periods and samples must be at least 1.")
+    if axes not in get_args(GustAxes):
+        raise ArgumentError(f'axes must be "world" or "body", not "{axes}".')
     motion = cycle.model.motion
     beats = np.arange(periods * samples + 1) / samples
     times: FloatArray = cycle.start_time + cycle.period * beats
     wind = np.array([velocity_of(gust, float(t)) for t in times])
     orbit = cycle.trajectory(times).states
-    states, failure = _flown(cycle, gust, times)
+    along_cycle = gust
+    if axes == "body":
+        along_cycle = BodyGust(gust, attitude_along(times, orbit, motion))
+        states, failure = _flown_along_body(cycle, gust, times, orbit)
+    else:
+        states, failure = _flown(cycle, gust, times)
     linearised = _linearise(cycle)
-    linear = _linear_response(cycle, linearised, gust, times)
+    linear = _linear_response(cycle, linearised, along_cycle, times)
     spectrum = _modes_over_a_beat(cycle, linearised, samples)
     kept, parts = _by_mode(spectrum, linear, samples)
     reached = np.isfinite(states).all(axis=1)
@@ -100,6 +120,7 @@ def gust_response(
         attrs={
             "bird": cycle.model.bird.name,
             "period": cycle.period,
+            "axes": axes,
             "failure": failure,
         },
     )
@@ -133,6 +154,24 @@ def _flown(cycle: FlightCycle, gust: Gust, times: FloatArray) -> tuple[FloatArra
             return states, str(error)
         states[within], x = path[:-1], path[-1]
     return states, ""
+
+
+def _flown_along_body(
+    cycle: FlightCycle, gust: Gust, times: FloatArray, states: FloatArray
+) -> tuple[FloatArray, str]:
+    """As `_flown`, with a gust along the body's axes; `states` (K, n) give the first attitude."""
+    motion, scale = cycle.model.motion, cycle.state_scale
+    for _ in range(_MOST_FLIGHTS):
+        followed = BodyGust(gust, attitude_along(times, states, motion))
+        before, (states, failure) = states, _flown(cycle, followed, times)
+        change = np.abs((states - before) / scale)
+        same_end = np.array_equal(np.isfinite(states), np.isfinite(before))
+        if same_end and np.nanmax(change) < _SETTLED:
+            return states, failure
+    raise ArgumentError(
+        f"the attitude in this gust along the body's axes does not settle in {_MOST_FLIGHTS} "
+        f'flights; take a weaker gust, fewer periods or axes="world".'
+    )
 
 
 def _pieces(gust: Gust, first: float, last: float, others: FloatArray) -> list[tuple[float, float]]:

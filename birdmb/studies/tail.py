@@ -1,95 +1,138 @@
-"""What stability costs: level flights over tail opening and gait (thesis, chapter 6)."""
+"""What stability costs: level flights over the opening of the tail and the gait."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
 from os import PathLike
 
 import numpy as np
 import xarray as xr
-from scipy.optimize import brentq
 
 from birdmb._typing import FloatArray
-from birdmb.errors import ArgumentError, BirdmbError
+from birdmb.errors import ArgumentError, TopologyError
 from birdmb.models import RigidModel
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.sweeps import Finished, Study, Trimming, sweep
-from birdmb.studies.trim import Trim, TrimGuess, trim_flight
-from birdmb.studies.zero_curve import ZeroCurve, trace_zero
+from birdmb.studies.trim_defaults import default_parameters
+from birdmb.studies.validity import LARGEST_TAIL_ANGLE
 from birdmb.topology import Bird
+from birdmb.topology.roles import flap_joint, sweep_joint
 
 OPENING = "tail.opening_deg"
-AMPLITUDE = "shoulder.flap.amplitude_deg"
-SWEEP = "shoulder.sweep.offset_deg"
-ROLL = "forearm.roll.offset_deg"
+VALID = {"largest_tail_angle": LARGEST_TAIL_ANGLE}
+"""Limits, as of `within_limits`, of the tail's slender-wing lift."""
 
-LARGEST_ROLL = 12.0
-LARGEST_PITCH = 6.0
-# Wider than the rule, so that it is told from flights that do not exist.
-_ROLL_BOUNDS = (-30.0, 30.0)
 # Of the states, in units of their scale: the multipliers are then known to some 1e-7.
-_ACCURACY = 3e-5
+ACCURACY = 3e-5
 # Of orbit and climb rate (m/s): no closer than the nodes leave them.
 _CLOSURE, _LEVEL = 1e-6, 1e-5
-_OPENING_STEP = 2.5
+_OPENINGS = np.arange(0.0, 45.1, 3.0)  # degrees
+_AMPLITUDES = np.linspace(1.1, 0.7, 9)  # of the bird's own
+_SWEEPS = np.arange(-3.0, 3.1, 1.0)  # degrees, to the bird's own
+
+
+def tail_ranges(bird: Bird) -> dict[str, list[float]]:
+    """Values by dotted name over which `tail_study` levels the flight of a bird by default.
+
+    The tail's opening from 0 to 45 degrees; the amplitude of the joint that flaps the wing, 1.1 to
+    0.7 times the bird's own, where it has one; the offset of the joint that sweeps it, up to 3
+    degrees to either side, where there is one. The latter two come first.
+
+    Raises:
+        TopologyError: the bird has no tail.
+    """
+    if bird.tail is None:
+        raise TopologyError(f"{bird.name} has no tail to open; give it a table [tail].")
+    flapping, sweeping = flap_joint(bird), sweep_joint(bird)
+    ranges = {}
+    if sweeping is not None:
+        name = f"{sweeping.name}.offset_deg"
+        ranges[name] = (float(bird.value(name)) + _SWEEPS).tolist()
+    if flapping is not None and not flapping.driver.is_still:
+        one_sine = flapping.driver.is_one_sine and flapping.amplitude
+        name = f"{flapping.name}.{'amplitude_deg' if one_sine else 'gain'}"
+        ranges[name] = (float(bird.value(name)) * _AMPLITUDES).tolist()
+    return ranges | {OPENING: _OPENINGS.tolist()}
 
 
 def tail_study(
     bird: Bird,
     store: str | PathLike[str],
+    vary: Mapping[str, Sequence[float]] | None = None,
     *,
+    trim: Mapping[str, tuple[float, float]] | None = None,
     every: int = 1,
     workers: int | None = None,
     executor: Executor | None = None,
     model: ModelFactory = RigidModel,
     on_point: Callable[[Finished], None] | None = None,
 ) -> Study:
-    """Level the flight by the roll of the forearm for all openings of the tail and gaits.
+    """Level the flight of a bird with a tail for openings of it and gaits.
 
-    Openings 0 to 45 degrees in steps of 1, flap amplitudes 45 to 29 and offsets of the shoulder's
-    sweep -15 to -9 degrees in steps of 0.5: 19 734 flights. A store that was begun is filled up.
+    A store that was begun is filled up.
 
     Args:
-        bird: a bird with a tail, and the joints of the ibis.
+        bird: a bird with a tail.
         store: file that keeps the study.
-        every: take only one of so many values; 5 makes a coarse study of 210 flights.
+        vary: values by dotted name: of "tail.opening_deg" and of one or two others; by default
+            `tail_ranges`. Neighbours start from one another, the last one named varying fastest.
+        trim: bounds (lowest, highest) by dotted name of the one value that levels the flight; by
+            default the offset of the joint that turns the chords.
+        every: take only one of so many values.
         workers, executor, on_point: as for `sweep`.
         model: makes the model of a bird.
 
     Raises:
-        TopologyError: the bird has no tail, or none of the joints.
+        TopologyError: the bird has no tail, or no value of a name.
         SweepError: as for `sweep`.
-        ArgumentError: `every` is not positive.
+        ArgumentError: `every` is not positive, the opening is not varied, or not beside one or two
+            others.
     """
     if every < 1:
         raise ArgumentError(f"every must be 1 or more, not {every}.")
+    ranges = tail_ranges(bird) if vary is None else vary
+    if OPENING not in ranges or len(ranges) not in {2, 3}:
+        raise ArgumentError(
+            f"the study varies {OPENING} and one or two other values, not {', '.join(ranges)}."
+        )
     return sweep(
         bird,
-        {
-            SWEEP: np.arange(-15.0, -8.9, 0.5 * every).tolist(),
-            AMPLITUDE: np.arange(45.0, 28.9, -0.5 * every).tolist(),
-            OPENING: np.arange(0.0, 45.1, 1.0 * every).tolist(),
-        },
+        {name: list(values[::every]) for name, values in ranges.items()},
         store=store,
         workers=workers,
         executor=executor,
         model=model,
-        trim=Trimming({ROLL: _ROLL_BOUNDS}, tolerance=_LEVEL),
+        trim=Trimming(trim or default_parameters(bird, 1), tolerance=_LEVEL),
         tolerance=_CLOSURE,
-        accuracy=_ACCURACY,
+        accuracy=ACCURACY,
         on_point=on_point,
     )
 
 
-def within_rules(data: xr.Dataset) -> xr.DataArray:
-    """Which flights of a study are not excluded: mean pitch and roll offset as in the thesis.
+def gait_parameters(data: xr.Dataset) -> list[str]:
+    """Names of what a study's dataset varies besides the opening of the tail."""
+    return [str(name) for name in data["along"].values if name != OPENING]
 
-    No more than 6 degrees of mean pitch and 12 of roll offset, either way.
+
+def within_limits(data: xr.Dataset, limits: Mapping[str, float]) -> xr.DataArray:
+    """Which flights of a study exceed none of some limits.
+
+    Args:
+        data: dataset of a study.
+        limits: largest modulus of variables of the dataset, by name and in their units, for
+            instance of "mean_pitch" (rad). What is NaN, as the angle of a furled tail, is within.
+
+    Raises:
+        ArgumentError: the dataset has no variable of a name.
     """
-    flat = abs(data["mean_pitch"]) <= np.radians(LARGEST_PITCH)
-    return flat & (abs(data[ROLL]) <= LARGEST_ROLL)
+    unknown = [name for name in limits if name not in data]
+    if unknown:
+        raise ArgumentError(f"flights are not described by {', '.join(unknown)}.")
+    allowed = data["status"] == "found"
+    for name, largest in limits.items():
+        allowed &= ~(abs(data[name]) > largest)
+    return allowed
 
 
 def pareto_front(cost: FloatArray, modulus: FloatArray) -> FloatArray:
@@ -102,140 +145,3 @@ def pareto_front(cost: FloatArray, modulus: FloatArray) -> FloatArray:
     best = np.minimum.accumulate(modulus[order])
     before = np.concatenate([[np.inf], best[:-1]])[: order.size]
     return np.asarray(order[modulus[order] < before])
-
-
-@dataclass(frozen=True)
-class PriceOfStability:
-    """The cheapest flights in a range of speed: of all, and of the stable ones.
-
-    Attributes:
-        slowest, fastest: the range, m/s.
-        cheapest: least cost of transport within the rules.
-        cheapest_stable: the same of those whose verdict is stable; NaN if there are none.
-        opening: of the tail at the cheapest stable flight, degrees.
-    """
-
-    slowest: float
-    fastest: float
-    cheapest: float
-    cheapest_stable: float
-    opening: float
-
-
-def price_of_stability(data: xr.Dataset, width: float = 1.0) -> tuple[PriceOfStability, ...]:
-    """Compare the cheapest flights of a study with the cheapest stable ones, speed by speed.
-
-    `width` (m/s) is that of the ranges of speed.
-    """
-    kept = data.where(within_rules(data))
-    cost, speed = kept["cost_of_transport"], kept["mean_speed"].values.ravel()
-    openings = data[OPENING].broadcast_like(cost).transpose(*cost.dims).values.ravel()
-    costs = cost.values.ravel()
-    stable = (kept["stability"] == "stable").values.ravel()
-    rows = []
-    for place in np.unique(np.floor(speed[np.isfinite(speed)] / width)):
-        here = np.floor(speed / width) == place
-        steady = np.flatnonzero(here & stable)
-        best = steady[np.argmin(costs[steady])] if steady.size else None
-        rows.append(
-            PriceOfStability(
-                slowest=float(place * width),
-                fastest=float((place + 1) * width),
-                cheapest=float(costs[here].min()),
-                cheapest_stable=np.nan if best is None else float(costs[best]),
-                opening=np.nan if best is None else float(openings[best]),
-            )
-        )
-    return tuple(rows)
-
-
-@dataclass(frozen=True)
-class StabilityOpening:
-    """Where |Lambda|max = 1 on level flights, over flap amplitude and opening, at one sweep offset.
-
-    Attributes:
-        sweep: offset of the shoulder's sweep, degrees.
-        curves: their points are (flap amplitude, opening), in degrees; none where stability does
-            not change within the ranges, or only across openings without level flight.
-    """
-
-    sweep: float
-    curves: tuple[ZeroCurve, ...]
-
-
-def stability_openings(
-    bird: Bird,
-    sweeps: Sequence[float],
-    *,
-    amplitudes: tuple[float, float] = (29.0, 45.0),
-    openings: tuple[float, float] = (0.0, 45.0),
-    seeds: int = 5,
-    model: ModelFactory = RigidModel,
-) -> tuple[StabilityOpening, ...]:
-    """Trace the opening of the tail at which level flight becomes stable, for offsets of the sweep.
-
-    On lines of constant amplitude the opening is raised in steps of 2.5 degrees until |Lambda|max
-    passes 1 from one level flight to the next; from there the curve is followed by continuation,
-    each of its points to 1e-6 of the ranges.
-
-    Args:
-        bird: a bird with a tail, and the joints of the ibis.
-        sweeps: offsets of the shoulder's sweep, degrees.
-        amplitudes, openings: ranges, degrees.
-        seeds: how many amplitudes are tried for curves that were not met yet.
-        model: makes the model of a bird.
-    """
-    found = []
-    for sweep_offset in sweeps:
-        flights = _LevelFlights(bird.with_values({SWEEP: float(sweep_offset)}), model)
-        curves: list[ZeroCurve] = []
-        for amplitude in np.linspace(*amplitudes, seeds + 2)[1:-1]:
-            opening = flights.crossing(float(amplitude), openings)
-            if opening is None or any(_passes(curve, amplitude, opening) for curve in curves):
-                continue
-            start = (float(amplitude), opening)
-            curves.append(trace_zero(flights.growth, start, (amplitudes, openings), tolerance=1e-6))
-        found.append(StabilityOpening(float(sweep_offset), tuple(curves)))
-    return tuple(found)
-
-
-def _passes(curve: ZeroCurve, amplitude: float, opening: float) -> bool:
-    there = np.interp(amplitude, *curve.points[np.argsort(curve.points[:, 0])].T)
-    return bool(abs(there - opening) < 1.0)
-
-
-class _LevelFlights:
-    """Growth of disturbances of level flights, each found from the one before it."""
-
-    def __init__(self, bird: Bird, model: ModelFactory) -> None:
-        self._bird, self._model = bird, model
-        self._last: TrimGuess | None = None
-
-    def growth(self, amplitude: float, opening: float) -> float:
-        """ln |Lambda|max of level flight; raises `TrimError` where there is none."""
-        trim: Trim = trim_flight(
-            self._bird.with_values({AMPLITUDE: amplitude, OPENING: opening}),
-            {ROLL: _ROLL_BOUNDS},
-            model=self._model,
-            tolerance=1e-6,
-            guess=self._last or TrimGuess({ROLL: 0.0}),
-            search={"accuracy": _ACCURACY},
-        )
-        self._last = TrimGuess(trim.values, trim.cycle)
-        return float(np.log(np.abs(trim.cycle.multipliers).max()))
-
-    def crossing(self, amplitude: float, openings: tuple[float, float]) -> float | None:
-        """The opening at which stability first changes; `None` where it does not."""
-        self._last = None
-        before = None
-        for opening in np.arange(openings[0], openings[1] + 1e-9, _OPENING_STEP):
-            try:
-                growth = self.growth(amplitude, float(opening))
-            except BirdmbError:
-                before = None
-                continue
-            if before is not None and before * growth < 0:
-                ends = (float(opening) - _OPENING_STEP, float(opening))
-                return float(brentq(lambda x: self.growth(amplitude, x), *ends, xtol=1e-5))
-            before = growth
-        return None

@@ -86,7 +86,8 @@ class ValidityViolation:
         if self.quantity == "reduced frequency":
             return (
                 f"The reduced frequency is {self.value:.3g}, beyond {self.limit:.3g}; locally it "
-                f"is largest {where}. The unsteady wake, which the model leaves out, matters there."
+                f"is largest {where}. The unsteady wake, which the model leaves out, matters "
+                "there: fly it with --set air.wake=unsteady, or see what --memory says it changes."
             )
         return (
             f"The {self.quantity} reaches {np.degrees(self.value):.1f} deg, beyond "

@@ -18,6 +18,14 @@ def flap_joint(bird: Bird) -> Joint | None:
     return _about(bird, 0)
 
 
+def sweep_joint(bird: Bird) -> Joint | None:
+    """The joint at the shoulder that moves the wing fore and aft; `None` if there is none.
+
+    The one whose axis is closest to the body's z axis, and less than 45 degrees from it.
+    """
+    return _about(bird, 2)
+
+
 def incidence_joint(bird: Bird) -> Joint | None:
     """The joint that turns chords about the span; `None` if none does, or it is not clear which.
 

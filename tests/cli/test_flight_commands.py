@@ -1,6 +1,11 @@
-"""`birdmb trim`, `birdmb tail-study` and `birdmb scale`."""
+"""`birdmb trim`, `birdmb gust`, `birdmb tail-study` and `birdmb scale`."""
 
+import json
+from pathlib import Path
+
+import numpy as np
 import pytest
+import xarray as xr
 
 import birdmb
 
@@ -69,6 +74,55 @@ def test_wrong_bounds(run, arguments, said):
     assert said in " ".join(done.stderr.split())
 
 
+def test_gust(run, tmp_path):
+    gust = ("gust", TAIL, "--model", "rigid", "--vertical", "0.5", "--beats", "4", *COARSE)
+    done = run(*gust, "--axes", "body", "--out", str(tmp_path / "out"), "--json")
+    assert done.exit_code == 0, done.stderr
+    found = json.loads(done.stdout)
+    assert [Path(name).name for name in found["files"]] == [
+        "gust.nc",
+        "gust.png",
+        "gust_states.png",
+    ]
+    assert all(Path(name).stat().st_size > 1000 for name in found["files"])
+    assert found["gust"] == {
+        "kind": "gaussian", "axes": "body", "vertical": 0.5, "horizontal": 0.0, "lateral": 0.0,
+        "time": 0.25, "width": 0.05,
+    }  # fmt: skip
+    with xr.open_dataset(tmp_path / "out" / "gust.nc") as data:
+        largest = np.abs(data.deviation).max("time")
+        expected = dict(zip(data.state.values, largest.values, strict=True))
+    assert found["largest_deviation"] == pytest.approx(expected)
+    in_world = json.loads(run(*gust, "--json").stdout)
+    assert in_world["largest_deviation"] != found["largest_deviation"]
+    slow = found["modes"][0]
+    assert slow["period"] == pytest.approx(
+        0.25 * 2 * np.pi / np.angle(complex(*slow["multiplier"]))
+    )
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ((), "give the gust a strength"),
+        (("--lateral", "1"), 'motion="free"'),
+        (("--kind", "step", "--vertical", "1", "--length", "1"), "--length has no effect"),
+        (("--vertical", "nan"), "--vertical must be"),
+    ],
+)
+def test_impossible_gusts(run, arguments, said):
+    done = run("gust", TAIL, "--model", "rigid", *arguments, *COARSE)
+    assert done.exit_code == 2
+    assert said in " ".join(done.stderr.split())
+
+
+def test_a_flight_that_a_gust_ends_is_no_success(run):
+    blown = ("--kind", "step", "--vertical", "1e3")
+    done = run("gust", TAIL, "--model", "rigid", *blown, *COARSE, "--json")
+    assert done.exit_code == 1
+    assert json.loads(done.stdout)["failure"]
+
+
 @pytest.mark.long
 def test_tail_study(run, tmp_path):
     store = tmp_path / "tail.db"
@@ -83,10 +137,26 @@ def test_tail_study(run, tmp_path):
     assert names == {"tail.nc"} | {f"tail_{name}.png" for name in figures}
 
 
+@pytest.mark.parametrize(
+    ("limit", "said"),
+    [
+        ("mean_yaw=3", "flights are not described by it"),
+        ("mean_pitch", "NAME=LARGEST"),
+        ("mean_pitch=-1", "NAME=LARGEST"),
+    ],
+)
+def test_impossible_limits_are_told_before_anything_is_flown(run, tmp_path, limit, said):
+    store = tmp_path / "x.db"
+    done = run("tail-study", TAIL, "--store", str(store), "--limit", limit)
+    assert done.exit_code == 2
+    assert said in " ".join(done.stderr.split())
+    assert not store.exists()
+
+
 def test_tail_study_needs_a_tail(run, tmp_path):
     done = run("tail-study", IBIS, "--store", str(tmp_path / "x.db"))
     assert done.exit_code == 2
-    assert "tail.opening_deg" in done.stderr
+    assert "ibis has no tail" in done.stderr
 
 
 @pytest.mark.long

@@ -64,7 +64,7 @@ def test_a_callback_never_raises(handled, inside):
             signal.raise_signal(SIGNAL)
         return np.zeros(2)
 
-    callback = carrier.callback(forces, 2)
+    callback = carrier.callback(forces, (2,))
 
     def compiled():
         if not inside:
@@ -84,7 +84,7 @@ def test_a_handler_that_returns_changes_nothing():
     before = signal.signal(SIGNAL, lambda number, _: seen.append(number))
     try:
         carrier = Carrier()
-        callback = carrier.callback(lambda: signal.raise_signal(SIGNAL) or np.ones(3), 3)
+        callback = carrier.callback(lambda: signal.raise_signal(SIGNAL) or np.ones(3), (3,))
         np.testing.assert_array_equal(carrier.call(lambda: callback(None)), np.ones(3))
     finally:
         signal.signal(SIGNAL, before)

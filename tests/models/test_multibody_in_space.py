@@ -212,7 +212,7 @@ def test_turning_the_heading_changes_nothing(model):
     accelerations = []
     air = np.array([1.0, -2.0, 0.5])
     for at, moves in ((q, v), (turned_q, turned_v)):
-        forces = model.tree.forces(0.03, at, moves, air)
+        forces = model.tree.loads(0.03, at, moves, np.empty(0), air).forces
         (mass,), (bias,) = model.tree.inertia.at(at[None], moves[None])
         accelerations.append(np.linalg.solve(mass, forces - bias))
     straight, turned = accelerations

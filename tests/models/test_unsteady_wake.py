@@ -87,7 +87,7 @@ def test_steady_flight_is_that_of_air_without_memory(ibis_tail):
     remembering = birdmb.RigidModel(gliding)
     forgetful = birdmb.RigidModel(gliding.with_values({"air.wake": "quasi-steady"}))
     body = np.array([[15.0, 1.0, 0.0, 0.05]])
-    states = remembering._with_lags(TIMES[:1], body)
+    states = remembering.with_lags(TIMES[:1], body)
     own, other = (
         model.loads_along(TIMES[:1], x).stack
         for model, x in ((remembering, states), (forgetful, body))

@@ -18,6 +18,7 @@ from birdmb.orbits import (
     periodic_multipliers,
     product_multipliers,
 )
+from birdmb.orbits.periodic import periodic_eigenvalues
 
 SOLVERS = [periodic_multipliers, product_multipliers]
 
@@ -68,6 +69,21 @@ def test_periodic_solver_keeps_small_multipliers():
     # What round-off leaves of the smallest is chance; that its bound owns up to it is not.
     assert lost.errors[4] > 1e6 * exact[4]
     assert (np.abs(lost.multipliers - exact) < lost.errors).all()
+
+
+def test_periodic_solver_keeps_the_smallest_multipliers_and_finds_them_alone():
+    """The sum of the logarithms is that of the determinants, of many states and none alike."""
+    rng = np.random.default_rng(4)
+    exact = np.sort(10.0 ** rng.uniform(-30, 0.3, 24))[::-1]
+    exact[-1] = 1e-190
+    factors = periodic_product(np.array([np.diag(exact ** (1 / 40))] * 40))
+    found = periodic_multipliers(factors, np.zeros_like(factors), np.ones(24))
+    assert found.multipliers == pytest.approx(exact, rel=1e-8)
+    assert (np.abs(found.multipliers - exact) < found.errors).all()
+    alone = periodic_eigenvalues(factors)
+    alone = alone[np.argsort(-np.abs(alone))]
+    assert alone == pytest.approx(exact, rel=1e-8)
+    assert np.linalg.slogdet(factors)[1].sum() == pytest.approx(np.log(exact).sum(), rel=1e-9)
 
 
 @pytest.mark.parametrize("small", [0.5, 1e-12])

@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import birdmb
+from birdmb.figures import plot_gust_states
 from birdmb.models import CosineGust, GaussianGust, StepGust
 
 
@@ -129,7 +131,37 @@ def test_a_side_gust_rolls_and_turns_a_bird_in_space(ibis_tail):
         birdmb.gust_response(planar, gust)
 
 
+def test_a_gust_along_the_body_is_a_velocity_added_to_the_bodys(cycles):
+    """Against an integration in which the loads are those of the velocity relative to the air."""
+    cycle, gust = cycles["rigid"], GaussianGust(vertical=1.0, horizontal=0.5, time=0.1)
+    flight = birdmb.gust_response(cycle, gust, axes="body", periods=3)
+
+    def rates(t, x):
+        forward, up, _ = gust(t)
+        found = cycle.model.rhs(t, x - [forward, -up, 0.0, 0.0])
+        # These rates have -q w and q u of the relative velocity.
+        return found + x[2] * np.array([up, forward, 0.0, 0.0])
+
+    times = flight.time.values
+    exact = solve_ivp(rates, times[[0, -1]], cycle.x0, t_eval=times, rtol=1e-9, atol=1e-10).y.T
+    np.testing.assert_allclose(flight.states, exact, atol=2e-6)
+    in_world = birdmb.gust_response(cycle, gust, periods=3)
+    assert np.abs(in_world.states - flight.states).max() > 1e-3
+
+
+@pytest.mark.parametrize("name", ["rigid", "multibody"])
+def test_linear_response_to_a_gust_along_the_body_is_of_first_order(cycles, name):
+    cycle, apart = cycles[name], []
+    for strength in (0.4, 0.2):
+        gust = GaussianGust(vertical=strength, time=0.1)
+        flight = birdmb.gust_response(cycle, gust, axes="body", periods=1)
+        apart.append(float(np.abs((flight.deviation - flight.linear) / cycle.state_scale).max()))
+    assert apart[0] / apart[1] == pytest.approx(4, rel=0.1)
+
+
 def test_impossible_requests(cycles):
+    with pytest.raises(ValueError, match="axes"):
+        birdmb.gust_response(cycles["rigid"], StepGust(), axes="wind")
     with pytest.raises(ValueError, match="at least 1"):
         birdmb.gust_response(cycles["rigid"], StepGust(), periods=0)
     with pytest.raises(ValueError, match="two or three velocities"):
@@ -140,3 +172,8 @@ def test_figure(cycles):
     flight = birdmb.gust_response(cycles["rigid"], GaussianGust(vertical=1.0), periods=2)
     figure = birdmb.plot_gust_response(flight)
     assert len(figure.axes) == 6
+    states = plot_gust_states(flight)
+    assert len(states.axes) == 4
+    # The undisturbed flight's mean over a beat is the same at all times.
+    mean = states.axes[0].lines[1].get_ydata()
+    np.testing.assert_allclose(mean, flight.orbit.sel(state="u").values[:60].mean(), atol=1e-6)

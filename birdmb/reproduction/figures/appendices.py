@@ -1,0 +1,139 @@
+"""Figures of the appendices: Roessler's cycles, the redox oscillator, integrators, exponents."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from birdmb._typing import FloatArray
+from birdmb.models import RigidModel
+from birdmb.orbits import largest_lyapunov_exponent
+from birdmb.reproduction.appendices import ROESSLER, redox_cycle, roessler, roessler_cycle
+from birdmb.reproduction.figures.drawing import Drawing, keep_figure
+from birdmb.reproduction.quantities import bird, published_wing
+
+Step = Callable[[RigidModel, float, FloatArray, float], FloatArray]
+
+
+def roessler_portrait(number: int, out: Path, _coarse: bool) -> None:
+    """Draw the cycle of a case in phase space, and a trajectory that begins beside it."""
+    case = ROESSLER[number - 1]
+    cycle = roessler_cycle(case)
+    beside = cycle.x0 + np.array([0.0, 0.3, 0.0])
+    times = np.linspace(0.0, 4 * cycle.period, 2001)
+    start = roessler(case.a, case.b, case.c).trajectory(beside, 0.0, times[-1], times)
+    orbit = cycle.trajectory(times[:501]).states
+    figure = Figure(figsize=(6.5, 5.6), layout="constrained")
+    axes = figure.add_subplot(projection="3d")
+    axes.plot(*start.states.T, color="tab:red", lw=0.6, label="from beside it, four periods")
+    axes.plot(*orbit.T, color="tab:blue", lw=2, label="limit cycle")
+    axes.set(xlabel="x", ylabel="y", zlabel="z")
+    axes.legend(frameon=False, fontsize="small", loc="upper left")
+    others = np.delete(cycle.multipliers, cycle.trivial_index or 0)
+    axes.set_title(
+        f"{case.name}: T = {cycle.period:.6f} s, |Λ| = {np.abs(others).max():.6f}",
+        fontsize="medium",
+    )
+    keep_figure(out, f"figure A.{number}", figure)
+
+
+def redox_portrait(out: Path, _coarse: bool) -> None:
+    """Draw the states of the redox oscillator over its period, and its multipliers."""
+    figure = redox_cycle().plot()
+    for axes in figure.get_axes():
+        if axes.get_xlabel() == "time (s)":
+            axes.set_xlabel("time (h)")
+    keep_figure(out, "figure B.1", figure)
+
+
+def _euler(model: RigidModel, t: float, x: FloatArray, h: float) -> FloatArray:
+    return h * model.rhs(t, x)
+
+
+def _rk2(model: RigidModel, t: float, x: FloatArray, h: float) -> FloatArray:
+    return h * model.rhs(t + h / 2, x + h / 2 * model.rhs(t, x))
+
+
+def _rk3(model: RigidModel, t: float, x: FloatArray, h: float) -> FloatArray:
+    k1 = model.rhs(t, x)
+    k2 = model.rhs(t + h / 2, x + h / 2 * k1)
+    k3 = model.rhs(t + h, x + h * (2 * k2 - k1))
+    return h / 6 * (k1 + 4 * k2 + k3)
+
+
+def _rk4(model: RigidModel, t: float, x: FloatArray, h: float) -> FloatArray:
+    k1 = model.rhs(t, x)
+    k2 = model.rhs(t + h / 2, x + h / 2 * k1)
+    k3 = model.rhs(t + h / 2, x + h / 2 * k2)
+    k4 = model.rhs(t + h, x + h * k3)
+    return h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+
+
+_STEPPERS: Mapping[str, tuple[Step, int]] = {
+    "Euler": (_euler, 1),
+    "Runge-Kutta 2": (_rk2, 2),
+    "Runge-Kutta 3": (_rk3, 3),
+    "Runge-Kutta 4": (_rk4, 4),
+}
+
+
+def integrators(out: Path, coarse: bool) -> None:
+    """Draw the error of a beat of the ibis over the evaluations of its right-hand side."""
+    figure = Figure(figsize=(9.5, 4.4), layout="constrained")
+    panels = figure.subplots(1, 2, sharex=True, sharey=True)
+    numbers = (15, 30) if coarse else (15, 30, 60, 120, 240)
+    wings = {"published wing": published_wing("ibis"), "converged wing": bird("ibis")}
+    for axes, (title, ibis) in zip(panels, wings.items(), strict=True):
+        _draw_errors(axes, RigidModel(ibis, steps_per_beat=960), numbers)
+        axes.set(title=title, xlabel="evaluations of the right-hand side in a beat")
+    panels[0].set_ylabel("error of the state after a beat (state scale)")
+    panels[0].legend(frameon=False)
+    keep_figure(out, "figure C.1", figure)
+
+
+def _draw_errors(axes: Axes, exact: RigidModel, numbers: Sequence[int]) -> None:
+    x0, period = exact.initial_guess(), exact.bird.period
+    end = exact.flow(x0, 0.0, period)
+    for name, (step, stages) in _STEPPERS.items():
+        errors = []
+        for steps in numbers:
+            x, h = x0, period / steps
+            for k in range(steps):
+                x = x + step(exact, k * h, x, h)
+            errors.append(np.abs((x - end) / exact.state_scale).max())
+        axes.loglog(np.multiply(numbers, stages), errors, "o-", label=name)
+
+
+def lyapunov(out: Path, coarse: bool) -> None:
+    """Draw the largest exponent of a chaotic and of a periodic Roessler system as it settles."""
+    figure = Figure(figsize=(7, 4.4), layout="constrained")
+    axes = figure.subplots()
+    intervals = 30 if coarse else 400
+    for c, colour in ((5.7, "tab:red"), (2.5, "tab:blue")):
+        found = largest_lyapunov_exponent(
+            roessler(0.2, 0.2, c), [1.0, 1.0, 0.0], 6.0, intervals, method="neighbours"
+        )
+        label = f"a = b = 0.2, c = {c:g}: {found.exponent:.4f} ± {found.error:.4f} 1/s"
+        axes.plot(found.times, found.running, color=colour, label=label.replace("-", "−"))
+    axes.axhline(0.0714, color="0.5", ls="--", lw=1, label="0.0714 (Sprott 2003)")
+    axes.set(xlabel="time (s)", ylabel="largest Lyapunov exponent (1/s)", ylim=(-0.1, 0.15))
+    axes.legend(frameon=False)
+    keep_figure(out, "figure E.1", figure)
+
+
+DRAWINGS: Mapping[str, Drawing] = {
+    **{
+        f"figure A.{n}": Drawing(
+            f"Roessler system, case {n}, in phase space", partial(roessler_portrait, n)
+        )
+        for n in (1, 2, 3)
+    },
+    "figure B.1": Drawing("redox oscillator: states and multipliers", redox_portrait),
+    "figure C.1": Drawing("integrators compared over a beat of the ibis", integrators),
+    "figure E.1": Drawing("largest Lyapunov exponents as they settle", lyapunov),
+}

@@ -1,0 +1,1 @@
+"""The program against measurements and independent computations, case by case."""
