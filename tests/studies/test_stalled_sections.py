@@ -58,3 +58,15 @@ def test_energy_is_where_lift_and_drag_leave_it(stalling):
     assert stalling.energy_imbalance < 1e-6
     assert sum(lost.values()) == pytest.approx(stalling.corrected_power, rel=1e-6)
     assert lost["profile"] > 1.0
+
+
+def test_a_push_beyond_the_stall_separates_all_sections_and_is_flown_on_from(stalling):
+    """8 m/s upwards on a flight of 18: the shares tell which sections let go, and when."""
+    model = stalling.model
+    start = stalling.x0.copy()
+    start[1] += 8.0
+    flight = model.trajectory(start, 0.0, 2.0 * stalling.period)
+    shares = flight.states[:, 4 + model.wake.shares]
+    assert np.isfinite(flight.states).all()
+    assert (shares.min(axis=0) < 0.5).all()
+    assert (stalling.beat.states[:, 4 + model.wake.shares].min(axis=0) > 0.5).sum() == 3
