@@ -358,17 +358,7 @@ class TreeModel(BirdModel):
         if not self.wake.count:
             return motion
         states = np.hstack([motion, np.tile(self.wake.attached, (times.size, 1))])
-        rates = self.rates(times, states)[:, self._lags]
-        return np.hstack([motion, self.wake.settled(rates, self._lag_slopes(times, states))])
-
-    def _lag_slopes(self, times: FloatArray, states: FloatArray) -> FloatArray:
-        """Derivatives (K, m, m) of the lags' rates by the lags, linear in attached flow."""
-        count = self.wake.count
-        shifted = np.repeat(states[:, None], count + 1, axis=1)
-        shifted[:, 1:, self._lags] += np.eye(count)
-        rows = np.repeat(times, count + 1), shifted.reshape(-1, states.shape[1])
-        found = self.rates(*rows)[:, self._lags].reshape(times.size, count + 1, count)
-        return np.asarray((found[:, 1:] - found[:, :1]).transpose(0, 2, 1))
+        return np.hstack([motion, self.wake.settled(*self.wake.linear(self.rates, times, states))])
 
     @cached_property
     def _trim(self) -> FloatArray:

@@ -12,6 +12,7 @@ from birdmb.aerodynamics.separation_curves import SeparationCurves, separation_c
 from birdmb.aerodynamics.wake_lags import KINDS, UNITS, WakeLags, no_wake_lags, wake_lags
 from birdmb.errors import TopologyError
 from birdmb.models.failures import lifting_line_lost
+from birdmb.models.implicit import Rates
 from birdmb.topology import SIDES, Bird
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.shape import wing_shape
@@ -83,6 +84,21 @@ class WakeStates:
         """
         order = np.arange(first, first + self.count)
         return np.roll(order, self.count // 2) if self.sides == len(SIDES) else order
+
+    def linear(
+        self, rates: Rates, times: FloatArray, states: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Rates (K, m) of the lags in `states` (K, n), and their derivatives (K, m, m) by the lags.
+
+        By unit differences: in attached flow the rates are linear in the lags, which stand last.
+        """
+        count = self.count
+        own = slice(states.shape[1] - count, None)
+        shifted = np.repeat(states[:, None], count + 1, axis=1)
+        shifted[:, 1:, own] += np.eye(count)
+        found = rates(np.repeat(times, count + 1), shifted.reshape(-1, states.shape[1]))[:, own]
+        found = found.reshape(times.size, count + 1, count)
+        return found[:, 0], np.asarray((found[:, 1:] - found[:, :1]).transpose(0, 2, 1))
 
     def settled(self, rates: FloatArray, slopes: FloatArray) -> FloatArray:
         """Lags (K, m) that would not change in motions that were steady.
