@@ -16,7 +16,9 @@ import birdmb
 from birdmb.studies.experiments import derivatives, jackdaw, scherer, section, sprung_plate, yeo
 from birdmb.studies.experiments.cases import experiments
 from birdmb.studies.experiments.comparison import (
+    ATTACHED,
     CHOICES,
+    MODELS,
     QUASI_STEADY,
     UNSTEADY,
     WITH_APPARENT_MASS,
@@ -48,7 +50,10 @@ def scherers_wing(_: list[Comparison]) -> Figure:
     for axes, pitch in zip(panels, (15.0, 25.0), strict=True):
         for name, choice in CHOICES.items():
             thrust = scherer.thrust_coefficients(leads, choice, pitch)
-            axes.plot(leads, thrust, label=name, **STYLES[name])
+            attached = {"label": ATTACHED, "ls": ":"} if name == UNSTEADY else {"label": name}
+            axes.plot(leads, thrust, **{**STYLES[name], **attached})
+        thrust = scherer.thrust_coefficients(leads, CHOICES[UNSTEADY], pitch, scherer.STALL)
+        axes.plot(leads, thrust, label="unsteady, with stall", **STYLES[UNSTEADY])
         axes.set(title=f"pitch {pitch:g}°", xlabel="pitch ahead of heave (deg)", ylim=(0.0, 0.6))
     at, markers = np.transpose(scherer.MARKERS)
     panels[0].errorbar(at, markers, scherer.ERROR_BAR, label="measured", **MEASURED)
@@ -63,9 +68,10 @@ def yeos_wing(_: list[Comparison]) -> Figure:
     axes.axhline(0.0, color="0.8", lw=0.8)
     axes.plot(phases, yeo.LIFT, label="measured", **MEASURED | {"ms": 2.5})
     for name, choice in CHOICES.items():
-        axes.plot(phases, 1e3 * yeo.computed_lift(choice), label=name, **STYLES[name])
-    slower = 1e3 * yeo.computed_lift(CHOICES[UNSTEADY], yeo.OTHER_SPEED)
-    axes.plot(phases, slower, label="unsteady, 2.8 m/s", color="tab:blue", lw=0.9, ls=":")
+        attached = {"label": ATTACHED, "ls": ":"} if name == UNSTEADY else {"label": name}
+        axes.plot(phases, 1e3 * yeo.computed_lift(choice), **{**STYLES[name], **attached})
+    stalled = 1e3 * yeo.computed_lift(CHOICES[UNSTEADY], stall=yeo.STALL)
+    axes.plot(phases, stalled, label="unsteady, with stall", **STYLES[UNSTEADY])
     axes.set(xlabel="t/T", ylabel="lift of both wings (mN)", xlim=(0.0, 1.0))
     axes.legend(frameon=False, fontsize="small")
     return figure
@@ -202,11 +208,11 @@ FIGURES: dict[str, Callable[[list[Comparison]], Figure]] = {
 def table(compared: list[Comparison]) -> str:
     """The numbers of a case as Markdown."""
     lines = [
-        "| | measured | quasi-steady | with apparent mass | unsteady |",
-        "|---|---|---|---|---|",
+        "| | measured | quasi-steady | with apparent mass | unsteady | attached |",
+        "|---|---|---|---|---|---|",
     ]
     for one in compared:
-        values = (one.computed.get(name) for name in CHOICES)
+        values = (one.computed.get(name) for name in MODELS)
         cells = ("" if value is None else f"{value:.4g}" for value in values)
         unit = f", {one.unit}" if one.unit else ""
         lines.append(f"| {one.quantity}{unit} | {one.measured:.4g} | {' | '.join(cells)} |")

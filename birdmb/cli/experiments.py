@@ -13,14 +13,15 @@ from birdmb.cli.progress import Progress
 from birdmb.cli.report import table_of
 from birdmb.studies.experiments.cases import experiments
 from birdmb.studies.experiments.comparison import (
-    CHOICES,
+    ATTACHED,
+    MODELS,
     WITH_APPARENT_MASS,
     Comparison,
     Experiment,
 )
 
 _NOTHING = "-"
-_HEADINGS = {WITH_APPARENT_MASS: "and apparent\nmass"}
+_HEADINGS = {WITH_APPARENT_MASS: "and apparent\nmass", ATTACHED: "attached"}
 
 
 def run(case: str | None, *, as_json: bool) -> None:
@@ -41,12 +42,13 @@ def run(case: str | None, *, as_json: bool) -> None:
 
 
 def _print(console: Console, experiment: Experiment, compared: list[Comparison]) -> None:
-    columns = ("quantity", "measured", *(_HEADINGS.get(name, name) for name in CHOICES))
+    models = [name for name in MODELS if any(name in one.computed for one in compared)]
+    columns = ("quantity", "measured", *(_HEADINGS.get(name, name) for name in models))
     title = f"{experiment.case}: {experiment.title} ({experiment.source})"
     table = table_of(title, *columns, numbers=tuple(range(1, len(columns))))
     table.columns[0].no_wrap = False
     for one in compared:
-        cells = (one.computed.get(name) for name in CHOICES)
+        cells = (one.computed.get(name) for name in models)
         table.add_row(
             f"{one.quantity}, {one.unit}" if one.unit else one.quantity,
             f"{one.measured:.4g}",

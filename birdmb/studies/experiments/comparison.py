@@ -6,7 +6,9 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TypedDict
 
+from birdmb._typing import FloatArray
 from birdmb.studies.moving_wing import Wake
+from birdmb.topology import Stall
 
 QUASI_STEADY, WITH_APPARENT_MASS, UNSTEADY = (
     "quasi-steady",
@@ -27,6 +29,19 @@ CHOICES: Mapping[str, WakeChoice] = {
     WITH_APPARENT_MASS: {"wake": "quasi-steady", "apparent_mass": True},
     UNSTEADY: {"wake": "unsteady", "apparent_mass": True},
 }
+# Where sections stall in the experiment, "unsteady" has them stall; and this model does not.
+ATTACHED = "unsteady, attached"
+MODELS = (*CHOICES, ATTACHED)
+
+
+def with_stall(
+    stall: Stall, compute: Callable[[WakeChoice, Stall | None], FloatArray]
+) -> dict[str, FloatArray]:
+    """What all models make of a wing whose sections stall so, by their names."""
+    found = {name: compute(choice, None) for name, choice in CHOICES.items()}
+    found[ATTACHED] = found[UNSTEADY]
+    found[UNSTEADY] = compute(CHOICES[UNSTEADY], stall)
+    return found
 
 
 @dataclass(frozen=True)
@@ -38,7 +53,7 @@ class Comparison:
         quantity: what it is.
         unit: empty where it has none.
         measured: the number from elsewhere; 0 where the quantity is an error.
-        computed: the same by this program, by name of the model (keys of `CHOICES`).
+        computed: the same by this program, by name of the model (`MODELS`).
         others: the same by other authors' models, by name.
         failure: why a model computed nothing.
     """
@@ -58,7 +73,7 @@ class Comparison:
             "quantity": self.quantity,
             "unit": self.unit,
             "measured": self.measured,
-            **{name: self.computed.get(name) for name in CHOICES},
+            **{name: self.computed.get(name) for name in MODELS},
             "others": dict(self.others),
             "failure": self.failure,
         }

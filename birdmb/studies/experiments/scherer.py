@@ -3,7 +3,8 @@
 J. O. Scherer, Experimental and theoretical investigation of large amplitude oscillating foil
 propulsion systems, Hydronautics Technical Report 662-1, 1968, as redrawn in figure 14 of J. S.
 Izraelevitz, Q. Zhu and M. S. Triantafyllou, AIAA Journal 55, 2017, who take a profile drag
-coefficient of 0.057. The markers have error bars of 0.011.
+coefficient of 0.057. The markers have error bars of 0.011. Symmetric sections of 15 % stall near 15
+degrees at the wing's Reynolds number of 3e5 (R. E. Sheldahl and P. C. Klimas, SAND80-2114, 1981).
 """
 
 from __future__ import annotations
@@ -13,8 +14,9 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.studies.experiments.comparison import CHOICES, Comparison, Experiment, WakeChoice
+from birdmb.studies.experiments.comparison import Comparison, Experiment, WakeChoice, with_stall
 from birdmb.studies.moving_wing import PlaneWing, WingMotion, moving_wing_loads
+from birdmb.topology import Stall
 
 CHORD, SPAN = 0.1016, 0.3048  # m
 SPEED, DENSITY, FREQUENCY = 3.048, 1000.0, 5.0  # m/s, kg/m3, Hz
@@ -35,25 +37,28 @@ OTHERS = {
     "unsteady lifting line, six states": 0.050,
     "vortex method, separation tuned": 0.017,
 }
-WING = PlaneWing.rectangular(SPAN, CHORD)
+STALL = Stall(angle=np.radians(15.0))
 
 
 def thrust_coefficients(
-    leads_deg: Sequence[float], choice: WakeChoice, pitch_deg: float = PITCH_DEG
+    leads_deg: Sequence[float],
+    choice: WakeChoice,
+    pitch_deg: float = PITCH_DEG,
+    stall: Stall | None = None,
 ) -> FloatArray:
     """Mean thrust coefficients (P,) where pitching leads heaving by P angles, degrees."""
-    found = []
+    wing, found = PlaneWing.rectangular(SPAN, CHORD, stall=stall), []
     for lead in leads_deg:
         pitch = np.radians(pitch_deg) * np.exp(1j * np.radians(lead))
         motion = WingMotion(FREQUENCY, [0.0, HEAVE], [0.0, pitch], pitch_axis=PITCH_AXIS)
-        loads = moving_wing_loads(WING, motion, speed=SPEED, density=DENSITY, **choice)
+        loads = moving_wing_loads(wing, motion, speed=SPEED, density=DENSITY, **choice)
         found.append(loads.mean_thrust_coefficient - PROFILE_DRAG)
     return np.array(found)
 
 
 def _compare() -> Iterator[Comparison]:
     leads, measured = np.transpose(MARKERS)
-    found = {name: thrust_coefficients(leads, choice) for name, choice in CHOICES.items()}
+    found = with_stall(STALL, lambda choice, stall: thrust_coefficients(leads, choice, stall=stall))
     for i, (lead, marker) in enumerate(MARKERS):
         quantity = f"thrust coefficient, pitch {PITCH_DEG:g} deg, {lead:g} deg ahead of heave"
         of_marker = {name: float(values[i]) for name, values in found.items()}

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from birdmb._typing import FloatArray
 from birdmb.errors import ArgumentError
-from birdmb.studies.moving_wing.memory import lags_of_start, periodic_lags
+from birdmb.studies.moving_wing.memory import lags_of_start, periodic_lags, settled_lags
 from birdmb.studies.moving_wing.motion import WingMotion
 from birdmb.studies.moving_wing.moving import InstantLoads, MovingWing
 from birdmb.studies.moving_wing.plane_wing import PlaneWing
@@ -94,8 +94,8 @@ class MovingWingLoads:
     def energy_gap(self) -> FloatArray:
         """Power less what it is spent on, (K,) W: thrust, wake, profile, and apparent mass.
 
-        None but for the instants' number: of periodic loads, whose rates of change are those of the
-        trigonometric polynomial through them.
+        None but for the instants' number, and what flow that separates dissipates: of periodic
+        loads, whose rates of change are those of the trigonometric polynomial through them.
         """
         count = len(self.times)
         harmonics = 2j * np.pi * self.motion.frequency * np.fft.rfftfreq(count, 1.0 / count)
@@ -147,12 +147,16 @@ def moving_wing_loads(
             them; by default the loads that repeat themselves every period.
 
     Raises:
-        ArgumentError: a size is not positive, instants or times do not fit, or the choice of wake
-            is unknown.
+        ArgumentError: a size is not positive, instants or times do not fit, the choice of wake is
+            unknown, or flow would separate in a quasi-steady one.
         StateError: the wake of a start cannot be integrated.
     """
     if wake not in get_args(Wake):
         raise ArgumentError(f'wake must be "quasi-steady" or "unsteady", not "{wake}".')
+    if wing.stall is not None and wake == "quasi-steady":
+        raise ArgumentError(
+            'a wing that stalls needs wake="unsteady": how far flow has separated is a memory.'
+        )
     if not (0.0 < speed < np.inf and 0.0 < density < np.inf):
         raise ArgumentError("speed and density must be positive and finite.")
     if elements < _FEWEST_ELEMENTS:
@@ -162,11 +166,13 @@ def moving_wing_loads(
     moving = MovingWing(wing, motion, speed, density, elements, wake_points, apparent_mass)
     at = _instants(motion, instants) if times is None else _start(times)
     if wake == "unsteady":
-        if times is None:
+        if times is not None:
+            lags = lags_of_start(moving.rates, moving.attached, at)
+        elif wing.stall is not None:
+            lags = settled_lags(moving.rates, moving.attached, at, motion.period)
+        else:
             slopes, drive = (np.array(a) for a in zip(*map(moving.lag_rates, at), strict=True))
             lags = periodic_lags(slopes, drive, motion.period)
-        else:
-            lags = lags_of_start(moving.lag_rates, at)
         found = [moving.unsteady_loads(t, x) for t, x in zip(at, lags, strict=True)]
     else:
         found = [moving.quasi_steady_loads(t) for t in at]

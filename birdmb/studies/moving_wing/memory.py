@@ -15,8 +15,11 @@ _PERIODIC = 1e-12
 _MOST_ITERATIONS = 200
 _INTEGRATION = Integration("LSODA", 1e-9, 100_000)
 
-# x' = slopes x + drive at a time, slopes (n, n) 1/s.
-Linear = Callable[[float], tuple[FloatArray, FloatArray]]
+# Of separated flow, whose states are known no better.
+_ROUGH, _SETTLED, _MOST_PERIODS = Integration("LSODA", 1e-7, 100_000), 1e-6, 60
+
+# Rates (n,) at a time of lags (n,).
+Rates = Callable[[float, FloatArray], FloatArray]
 
 
 def periodic_lags(slopes: FloatArray, drive: FloatArray, period: float) -> FloatArray:
@@ -53,18 +56,35 @@ def periodic_lags(slopes: FloatArray, drive: FloatArray, period: float) -> Float
     return np.asarray(found.reshape(count, n))
 
 
-def lags_of_start(linear: Linear, times: FloatArray) -> FloatArray:
-    """Solution (K, n) at ascending `times` (K,) s, from none at the first of them.
+def settled_lags(
+    rates: Rates, start: FloatArray, instants: FloatArray, period: float
+) -> FloatArray:
+    """Lags (K, n) at the instants (K,) s of a period, once they repeat themselves.
+
+    From a `start` (n,), by as many periods as that takes.
+
+    Raises:
+        ArgumentError: they do not settle.
+        StateError: the integration fails.
+    """
+    scale = 1e-3 * _ROUGH.rtol * np.ones(start.size)
+    times = np.append(instants, instants[0] + period)
+    for _ in range(_MOST_PERIODS):
+        found = _ROUGH.run(rates, start, float(times[0]), float(times[-1]), scale, times)
+        if np.abs(found[-1] - start).max() < _SETTLED * np.abs(found).max():
+            return found[:-1]
+        start = found[-1]
+    raise ArgumentError(
+        f"the separated flow does not repeat itself after {_MOST_PERIODS} periods; give times, "
+        "for a motion that starts."
+    )
+
+
+def lags_of_start(rates: Rates, start: FloatArray, times: FloatArray) -> FloatArray:
+    """Solution (K, n) at ascending `times` (K,) s, from a `start` (n,) at the first of them.
 
     Raises:
         StateError: the integration fails.
     """
-    slopes, _ = linear(float(times[0]))
-
-    def rates(t: float, x: FloatArray) -> FloatArray:
-        matrix, drive = linear(t)
-        return np.asarray(matrix @ x + drive)
-
-    n = len(slopes)
-    scale = 1e-3 * _INTEGRATION.rtol * np.ones(n)
-    return _INTEGRATION.run(rates, np.zeros(n), float(times[0]), float(times[-1]), scale, times)
+    scale = 1e-3 * _INTEGRATION.rtol * np.ones(start.size)
+    return _INTEGRATION.run(rates, start, float(times[0]), float(times[-1]), scale, times)

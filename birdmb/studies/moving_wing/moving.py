@@ -11,6 +11,7 @@ from birdmb.aerodynamics.apparent_mass import apparent_inertia
 from birdmb.aerodynamics.elements import place_elements
 from birdmb.aerodynamics.pair import pair_loads, pair_wrench
 from birdmb.aerodynamics.section_motion import section_motion
+from birdmb.aerodynamics.separation_curves import separation_curves
 from birdmb.aerodynamics.twist_loads import wing_wrench
 from birdmb.aerodynamics.unsteady_circulation import Unsteady, lag_system, unsteady_circulations
 from birdmb.aerodynamics.unsteady_loads import side_flow, side_wrenches
@@ -60,12 +61,30 @@ class MovingWing:
         self._apparent_mass = apparent_mass
         self._line = lifting_line(wing, elements, motion.pitch_axis)
         self._lags = wake_lags(elements, wake_points)
+        self._attached = np.zeros(4 * wake_points)
+        if wing.stall is not None:
+            places, kept = np.zeros(wake_points), self._lags.kept
+            curves = separation_curves([wing.profile], places, kept, elements)
+            self._lags = self._lags._replace(separation=curves)
+            self._attached = np.append(self._attached, np.ones(wake_points))
         placed = place_elements(self._line, np.zeros(3))
         self.widths = placed.width
         self.positions = np.cumsum(placed.width) - 0.5 * placed.width
 
+    @property
+    def attached(self) -> FloatArray:
+        """Lags (n,) of a fluid at rest about a wing whose flow is attached."""
+        return self._attached.copy()
+
+    def rates(self, t: float, lags: FloatArray) -> FloatArray:
+        """Rates (n,) 1/s of the lags (n,) at time t (s)."""
+        return self._circulations(self._at(t), lags, False).lag_rates[:, 0].copy()
+
     def lag_rates(self, t: float) -> tuple[FloatArray, FloatArray]:
-        """Slopes (n, n) 1/s of the lags' rates at time t (s), and these where all lags are none."""
+        """Slopes (n, n) 1/s of the lags' rates at time t (s), and these where all lags are none.
+
+        Of attached flow, in which these are all that there is to the rates.
+        """
         at = self._at(t)
         unsteady = self._circulations(at, np.zeros(4 * self._lags.kept.size), True)
         return unsteady.lag_rates[:, 1:].copy(), unsteady.lag_rates[:, 0].copy()

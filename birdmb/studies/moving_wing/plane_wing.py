@@ -10,6 +10,7 @@ import numpy as np
 
 from birdmb._typing import FloatArray
 from birdmb.errors import ArgumentError
+from birdmb.topology import Profile, Stall
 from birdmb.wing.shape import WingShape
 
 _ELLIPSE_SECTIONS = 400  # straight between them: the area is short of the ellipse's by 3e-6
@@ -29,6 +30,8 @@ class PlaneWing:
         zero_lift_angle: of the profile, rad.
         moment_coefficient: of the profile about the quarter chord, nose up.
         profile_drag: drag coefficient of the sections.
+        stall: how flow separates from the sections in an unsteady wake (docs/model.md, section 11);
+            by default it stays attached.
     """
 
     positions: Sequence[float]
@@ -39,6 +42,7 @@ class PlaneWing:
     zero_lift_angle: float = 0.0
     moment_coefficient: float = 0.0
     profile_drag: float = 0.0
+    stall: Stall | None = None
 
     def __post_init__(self) -> None:
         """Check the sections.
@@ -63,9 +67,12 @@ class PlaneWing:
             raise ArgumentError("a wing's chords must be positive; only at the tip it may be 0.")
 
     @classmethod
-    def rectangular(cls, span: float, chord: float, *, profile_drag: float = 0.0) -> Self:
+    def rectangular(
+        cls, span: float, chord: float, *, profile_drag: float = 0.0, stall: Stall | None = None
+    ) -> Self:
         """A rectangle; `span` from tip to tip, m."""
-        return cls((0.0, 0.5 * span), (chord, chord), profile_drag=profile_drag)
+        ends = (0.0, 0.5 * span), (chord, chord)
+        return cls(*ends, profile_drag=profile_drag, stall=stall)
 
     @classmethod
     def elliptic(cls, span: float, aspect_ratio: float) -> Self:
@@ -74,6 +81,16 @@ class PlaneWing:
         chords = 4.0 * span / (np.pi * aspect_ratio) * np.cos(share)
         chords[-1] = 0.0
         return cls((0.5 * span * np.sin(share)).tolist(), chords.tolist())
+
+    @property
+    def profile(self) -> Profile:
+        """What its sections do to the air."""
+        return Profile(
+            lift_slope=self.lift_slope,
+            zero_lift_angle=self.zero_lift_angle,
+            moment_coefficient=self.moment_coefficient,
+            stall=self.stall,
+        )
 
     @property
     def span(self) -> float:
