@@ -9,10 +9,11 @@ import numpy as np
 
 from birdmb._typing import FloatArray
 from birdmb.errors import ArgumentError, OrbitError, StateError
-from birdmb.orbits.collocation import CollocationEquations, more_nodes
+from birdmb.orbits.collocation import CollocationEquations
 from birdmb.orbits.collocation_search import guessed_path
 from birdmb.orbits.cycle import LimitCycle
 from birdmb.orbits.deflation import Deflated, Known, apart
+from birdmb.orbits.enough_nodes import more_nodes
 from birdmb.orbits.iteration import Iteration
 from birdmb.orbits.newton import Equations, solve
 from birdmb.orbits.periodicity import require_period, turns
@@ -168,14 +169,14 @@ class CoarseSearch:
         """Whether a start leads to a solution that was not known."""
         u = self._equations.pack(path / self._scale, period)
         try:
-            u, _, _ = solve(
+            u = solve(
                 equations,
                 u,
                 damping="line-search",
                 tolerance=max(_TOLERANCE, self._equations.round_off(u)),
                 max_iterations=self._max_iterations,
                 callback=_Stalling(),
-            )
+            ).u
         except ArgumentError:
             raise
         except StateError as error:

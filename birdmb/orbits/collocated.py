@@ -7,12 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.orbits.collocation import Collocated, CollocationEquations, more_nodes
+from birdmb.orbits.collocation import CollocationEquations
+from birdmb.orbits.enough_nodes import Collocated, more_nodes
 from birdmb.orbits.linearisation import trivial_mode
 from birdmb.orbits.multipliers import Spectrum, paired_distances, product
 from birdmb.orbits.periodic import periodic_multipliers
 from birdmb.orbits.result import FloquetResult
-from birdmb.orbits.variational import flow_jacobian_errors, flow_jacobians
+from birdmb.orbits.variational import flow_jacobians
 
 # The finer multipliers are better, not exact.
 _ERROR_PER_DIFFERENCE = 3.0
@@ -114,12 +115,11 @@ def _linearised(
     factors = flow_jacobians(period * jacobians)
     factor_errors = np.zeros_like(factors)
     if with_errors:
-        factor_errors = flow_jacobian_errors(period * jacobians, factors)
         errors = rhs.jacobian_errors(equations.times(period), points, jacobians)
         # To first order an error of the derivative acts for the length of an interval.
         size = np.maximum(np.abs(factors), np.eye(len(rhs.scale)))
         step = period / equations.nodes
-        factor_errors = factor_errors + step * 0.5 * (size @ errors + errors @ size)
+        factor_errors = step * 0.5 * (size @ errors + errors @ size)
     units = np.divide.outer(rhs.scale, rhs.scale)
     spectrum = periodic_multipliers(factors * units, factor_errors * units, rhs.scale)
     return _Linearised(equations, u, jacobians, factors * units, spectrum)

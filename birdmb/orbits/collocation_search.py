@@ -12,15 +12,9 @@ import numpy.typing as npt
 from birdmb._typing import FloatArray
 from birdmb.errors import ArgumentError, OrbitError, StateError
 from birdmb.orbits.collocated import linearise_collocated
-from birdmb.orbits.collocation import (
-    FIRST_NODES,
-    Collocated,
-    CollocationEquations,
-    collocate,
-    fewer_nodes,
-    more_nodes,
-)
+from birdmb.orbits.collocation import CollocationEquations
 from birdmb.orbits.cycle import LimitCycle, cycle_type
+from birdmb.orbits.enough_nodes import FIRST_NODES, Collocated, collocate, fewer_nodes, more_nodes
 from birdmb.orbits.errors import ConvergenceError, NotSmoothError
 from birdmb.orbits.iteration import Iteration
 from birdmb.orbits.newton import Damping

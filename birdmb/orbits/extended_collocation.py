@@ -10,18 +10,12 @@ import numpy as np
 from birdmb._typing import FloatArray
 from birdmb.orbits.branch_points import BranchPoint
 from birdmb.orbits.collocated import linearise_collocated
-from birdmb.orbits.collocation import (
-    FIRST_NODES,
-    Collocated,
-    CollocationEquations,
-    LatestJacobians,
-    collocate,
-    fewer_nodes,
-)
+from birdmb.orbits.collocation import CollocationEquations, LatestJacobians
 from birdmb.orbits.cycle import LimitCycle, cycle_type
+from birdmb.orbits.enough_nodes import FIRST_NODES, Collocated, collocate, fewer_nodes
 from birdmb.orbits.extended import ExtendedEquations, Solution
 from birdmb.orbits.iteration import Iteration
-from birdmb.orbits.newton import Matrix
+from birdmb.orbits.newton import Linear, Matrix
 from birdmb.orbits.right_hand_side import RightHandSide
 from birdmb.orbits.trigonometric import resampled
 
@@ -123,6 +117,10 @@ class ExtendedCollocation(ExtendedEquations):
         """Derivative of the residual from the derivatives (N, n, n) of the rates."""
         matrix = self.orbit(self.parameter(u)).assemble(u[:-1], rate_jacobians)
         return cast("FloatArray", self.border(u, matrix))
+
+    def product(self, u: FloatArray, rate_jacobians: FloatArray) -> Linear:
+        """What the derivative makes of a change of the unknowns."""
+        return self.assemble(u, rate_jacobians).__matmul__
 
     def round_off(self, u: FloatArray) -> float:
         """Norm that round-off leaves of the residual."""

@@ -72,10 +72,10 @@ class ExtendedShooting(ExtendedEquations):
 
     def corrected(self, u: FloatArray, tolerance: float, max_iterations: int) -> Solution:
         """The solution from a guess; raises the errors of `solve`."""
-        found, _, iterations = solve(
+        found = solve(
             self, u, damping="line-search", tolerance=tolerance, max_iterations=max_iterations
         )
-        return Solution(self, found, iterations)
+        return Solution(self, found.u, found.iterations)
 
     def solution_at(self, u: FloatArray) -> Solution:
         """The solution `u` as it is."""

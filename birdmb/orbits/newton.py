@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass
-from typing import Literal, Protocol, get_args
+from typing import Literal, NamedTuple, Protocol, get_args
 
 import numpy as np
 import scipy.sparse as sp
@@ -20,6 +19,7 @@ from birdmb.orbits.errors import ConvergenceError, SingularJacobianError
 from birdmb.orbits.iteration import Iteration
 
 Damping = Literal["line-search", "levenberg-marquardt"]
+Linear = Callable[[FloatArray], FloatArray]
 # Sparse for shooting over many segments, dense for collocation.
 Matrix = sp.csc_array | FloatArray
 
@@ -54,6 +54,22 @@ class Equations(Protocol):
         """Largest closure error in the units of the states."""
 
 
+class Solved(NamedTuple):
+    """A solution of nonlinear equations.
+
+    Attributes:
+        u: unknowns (N,).
+        residual: residual (N,) there.
+        iterations: the steps that led to it.
+        solve: solver of the linear equations that Newton's method took last, if it took any.
+    """
+
+    u: FloatArray
+    residual: FloatArray
+    iterations: tuple[Iteration, ...]
+    solve: Linear | None
+
+
 @dataclass(frozen=True)
 class _Point:
     u: FloatArray
@@ -73,7 +89,7 @@ class _Step:
     reused: bool = False
 
 
-def factorise(matrix: Matrix) -> tuple[Callable[[FloatArray], FloatArray], float]:
+def factorise(matrix: Matrix) -> tuple[Linear, float]:
     """Return the solver of an LU factorisation and the condition number (1-norm estimate).
 
     LinAlgError if the matrix is singular to working precision. Entries are in scaled units, so the
@@ -88,7 +104,7 @@ def factorise(matrix: Matrix) -> tuple[Callable[[FloatArray], FloatArray], float
     return solver, condition
 
 
-def _factorise_dense(matrix: FloatArray) -> tuple[Callable[[FloatArray], FloatArray], float]:
+def _factorise_dense(matrix: FloatArray) -> tuple[Linear, float]:
     size = float(np.abs(matrix).sum(axis=0).max())
     lu, pivots, singular = lapack.dgetrf(matrix)
     if singular or not np.isfinite(size):
@@ -102,7 +118,7 @@ def _factorise_dense(matrix: FloatArray) -> tuple[Callable[[FloatArray], FloatAr
     return solve_dense, inverse_size * max(1.0, size)
 
 
-def _factorise_sparse(matrix: sp.csc_array) -> tuple[Callable[[FloatArray], FloatArray], float]:
+def _factorise_sparse(matrix: sp.csc_array) -> tuple[Linear, float]:
     try:
         lu, transposed = splu(matrix), splu(matrix.T.tocsc())
     except RuntimeError as error:  # SuperLU's word for an exact zero pivot
@@ -122,22 +138,20 @@ def solve(
     tolerance: float,
     max_iterations: int,
     callback: Callable[[Iteration], None] | None = None,
-    first_jacobian: Matrix | None = None,
+    first_solver: Linear | None = None,
     shortest_damping: float = SHORTEST_DAMPING,
     enough: Callable[[FloatArray], float] = lambda _: 0.0,
-) -> tuple[FloatArray, FloatArray, tuple[Iteration, ...]]:
+) -> Solved:
     """Solve equations(u) = 0 from u.
 
     Line search: by halving, down to `shortest_damping`, on the Euclidean norm. Where Jacobians are
     dear, a step with the last one, updated from the steps since (Broyden 1965), is tried first and
-    kept only if it cuts the residual to a third; `first_jacobian` (N, N), of a neighbouring
-    solution for instance, is what the first such step takes. Levenberg-Marquardt: the parameter is
-    a factor times the residual norm (Fan & Yuan 2005), the factor adapted by success; it takes no
-    `first_jacobian`.
+    kept only if it cuts the residual to a third; `first_solver`, of the linear equations at a
+    neighbouring solution for instance, is what the first such step takes. Levenberg-Marquardt: the
+    parameter is a factor times the residual norm (Fan & Yuan 2005), the factor adapted by success;
+    it takes no `first_solver`.
 
-    Returns:
-        The solution, its residual (norm at most `tolerance`, or what is `enough` at the solution)
-        and the iterations.
+    The norm of the residual of what is returned is at most `tolerance`, or what is `enough` there.
 
     Raises:
         StateError: the residual is not defined at the guess.
@@ -150,7 +164,7 @@ def solve(
     point = _Point(u, equations.residual(u))
     stepper: _Newton | _LevenbergMarquardt = _LevenbergMarquardt(equations)
     if damping == "line-search":
-        stepper = _Newton(equations, first_jacobian, shortest_damping)
+        stepper = _Newton(equations, first_solver, shortest_damping)
     history: list[Iteration] = []
 
     def record(number: int, length: float, damping: float, reused: bool) -> None:
@@ -205,7 +219,7 @@ def solve(
         length = float(np.linalg.norm(step.point.u - point.u))
         point = step.point
         record(len(history), length, step.damping, step.reused)
-    return point.u, point.residual, tuple(history)
+    return Solved(point.u, point.residual, tuple(history), stepper.solve)
 
 
 def _try(equations: Equations, u: FloatArray, below: float) -> _Point | None:
@@ -218,14 +232,13 @@ def _try(equations: Equations, u: FloatArray, below: float) -> _Point | None:
 
 class _Newton:
     def __init__(
-        self, equations: Equations, first_jacobian: Matrix | None, shortest_damping: float
+        self, equations: Equations, first_solver: Linear | None, shortest_damping: float
     ) -> None:
         self._equations, self._shortest = equations, shortest_damping
+        self.solve = first_solver
         self._broyden: _Broyden | None = None
-        if first_jacobian is not None and equations.expensive_jacobian:
-            # One that is singular says nothing about the equations at hand.
-            with suppress(np.linalg.LinAlgError):
-                self._broyden = _Broyden(factorise(first_jacobian)[0])
+        if first_solver is not None and equations.expensive_jacobian:
+            self._broyden = _Broyden(first_solver)
 
     def advance(self, point: _Point) -> _Step | None:
         if self._broyden is not None:
@@ -237,6 +250,7 @@ class _Newton:
                     return _Step(trial, 1.0, reused=True)
             self._broyden = None
         solved, condition = factorise(self._equations.jacobian(point.u))
+        self.solve = solved
         direction = -solved(point.residual)
         damping = 1.0
         while damping >= self._shortest:
@@ -260,13 +274,16 @@ class _Broyden:
     nothing is factorised anew (Kelley 1995, section 7.3).
     """
 
-    def __init__(self, solved: Callable[[FloatArray], FloatArray]) -> None:
+    def __init__(self, solved: Linear) -> None:
         self._solved = solved
         self._steps: list[FloatArray] = []
 
     def step(self, residual: FloatArray) -> FloatArray | None:
         """The next step; `None` where the updated Jacobian is singular."""
-        step = -self._solved(residual)
+        try:
+            step = -self._solved(residual)
+        except np.linalg.LinAlgError:
+            return None
         # An overflow is no step either.
         with np.errstate(all="ignore"):
             for before, after in itertools.pairwise(self._steps):
@@ -282,6 +299,8 @@ class _Broyden:
 
 
 class _LevenbergMarquardt:
+    solve = None
+
     def __init__(self, equations: Equations) -> None:
         self._equations = equations
         self._factor = 1e-2

@@ -21,9 +21,10 @@ _EPS = float(np.finfo(float).eps)
 # and the product of a block loses no more digits than its moduli differ by.
 _BLOCK_RATIO = 0.5
 _MOST_SWEEPS = 60
-_SWEEPS_TO_SETTLE = 4
-# Logarithm of what is left of other blocks in a subspace.
-_LOG_LEFT = float(np.log(1e-18))
+# Subspaces that a sweep moves by less, and no less than the one before, are known to round-off.
+_SETTLED = 1e-8
+# Logarithm of a ratio of two moduli that one sweep tells apart.
+_LOG_WIDEST = float(np.log(1e-9))
 # A product that stretches no direction more than this against another keeps 12 digits of each.
 _GROUP_CONDITION = 1e4
 
@@ -56,10 +57,9 @@ def periodic_multipliers(factors: FloatArray, errors: FloatArray, scale: FloatAr
         forward = backward = np.eye(n)[None]
         borders = [0, n]
     else:
-        forward, growth = _sweep(scaled)
+        forward, borders = _flag(scaled)
         # Reversed, the transposes start at the end of the orbit: put their points in order again.
-        backward = np.roll(_sweep(np.swapaxes(scaled[::-1], 1, 2))[0][::-1], 1, axis=0)
-        borders = _block_borders(growth)
+        backward = np.roll(_flag(np.swapaxes(scaled[::-1], 1, 2))[0][::-1], 1, axis=0)
     round_off = n * _EPS * np.linalg.norm(scaled, axis=(1, 2))[:, None, None]
 
     values, value_errors = np.empty(n, complex), np.empty(n)
@@ -84,26 +84,58 @@ def periodic_multipliers(factors: FloatArray, errors: FloatArray, scale: FloatAr
     return ordered_spectrum(values, value_errors, left, along, scale)
 
 
-def _sweep(factors: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Orthonormal bases (M, n, n) of the dominant directions, and log growth rates (n,)."""
-    m, n, _ = factors.shape
+def _flag(factors: FloatArray) -> tuple[FloatArray, list[int]]:
+    """Orthonormal bases (M, n, n) of the dominant directions, and borders of their blocks."""
+    n = len(factors[0])
     # A start in general position: none of its directions may lie in an invariant subspace.
-    basis = np.linalg.qr(np.random.default_rng(0).standard_normal((n, n)))[0]
-    bases, growth = np.empty((m, n, n)), np.zeros(n)
-    for sweeps in range(1, _MOST_SWEEPS + 1):
-        for k in range(m):
-            bases[k] = basis
-            # numpy's own door to the same two routines costs more than they do.
-            packed, tau, _, _ = lapack.dgeqrf(factors[k] @ basis)
-            growth += np.log(np.maximum(np.abs(np.diag(packed)), np.finfo(float).tiny))
-            basis = lapack.dorgqr(packed, tau)[0]
-        gaps = np.diff(growth / sweeps)
-        # What a subspace holds of the others shrinks by the ratio of the moduli in each sweep.
-        between = gaps[gaps < np.log(_BLOCK_RATIO)]
-        settled = sweeps - _SWEEPS_TO_SETTLE
-        if settled > 0 and (settled * between < _LOG_LEFT).all():
+    start = np.linalg.qr(np.random.default_rng(0).standard_normal((n, n)))[0]
+    bases, triangles, end = _sweep(factors, start)
+    start, before = end @ _turned(triangles, start.T @ end), np.inf
+    for _ in range(_MOST_SWEEPS):
+        bases, triangles, end = _sweep(factors, start)
+        stretched = np.abs(np.einsum("kii->ki", triangles))
+        growth = np.log(np.maximum(stretched, np.finfo(float).tiny)).sum(axis=0)
+        borders = _block_borders(growth)
+        turn = np.abs(start.T @ end)
+        moved = max((float(turn[at:, :at].max()) for at in borders[1:-1]), default=0.0)
+        if moved <= n * _EPS or (moved <= _SETTLED and moved > _BLOCK_RATIO * before):
             break
-    return bases, growth / sweeps
+        start, before = end, moved
+    return bases, borders
+
+
+def _sweep(factors: FloatArray, basis: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Bases (M, n, n) from `basis` (n, n) on, triangles (M, n, n) between them, and the last."""
+    bases, triangles = np.empty_like(factors), np.empty_like(factors)
+    for k, factor in enumerate(factors):
+        bases[k] = basis
+        # numpy's own door to the same two routines costs more than they do.
+        triangles[k], tau, _, _ = lapack.dgeqrf(factor @ basis)
+        basis = lapack.dorgqr(triangles[k], tau)[0]
+    return bases, np.triu(triangles), basis
+
+
+def _turned(triangles: FloatArray, turn: FloatArray) -> FloatArray:
+    """Where more sweeps would turn the basis at the end of one to, within its own coordinates.
+
+    They would see the product of its `triangles` (M, n, n) after `turn` (n, n), from the basis at
+    the end to that at the start. Its rows are kept in units of what they are stretched by, so that
+    small ones keep their digits; of a gap between two of these only so much counts as a sweep
+    needs to leave nothing of one in the other.
+    """
+    sizes, rows = np.zeros(len(turn)), turn
+    for triangle in triangles:
+        largest = np.maximum.accumulate(sizes[::-1])[::-1]
+        rows = (triangle * np.exp(np.minimum(sizes - largest[:, None], 0.0))) @ rows
+        norms = np.maximum(np.abs(rows).max(axis=1), np.finfo(float).tiny)
+        rows, sizes = rows / norms[:, None], largest + np.log(norms)
+    gaps = np.clip(np.diff(sizes), _LOG_WIDEST, -_LOG_WIDEST)
+    product = np.exp(np.append(0.0, np.cumsum(gaps)))[:, None] * rows
+    basis = np.eye(len(turn))
+    for _ in range(_MOST_SWEEPS):
+        packed, tau, _, _ = lapack.dgeqrf(product @ basis)
+        basis = lapack.dorgqr(packed, tau)[0]
+    return basis
 
 
 def _block_borders(growth: FloatArray) -> list[int]:
@@ -117,7 +149,9 @@ def _intersections(one: FloatArray, other: FloatArray, first: int, last: int) ->
     if first == 0:
         return span
     overlap = np.swapaxes(other[:, :, :first], 1, 2) @ span
-    return np.asarray(span @ np.swapaxes(np.linalg.svd(overlap)[2][:, first:, :], 1, 2))
+    # The directions that a complete factorisation adds are those that the overlap takes to zero.
+    directions = np.linalg.qr(np.swapaxes(overlap, 1, 2), mode="complete")[0]
+    return np.asarray(span @ directions[:, :, first:])
 
 
 def _carry(
@@ -136,10 +170,9 @@ def _carry(
     with np.errstate(divide="ignore", invalid="ignore"):
         decay = values ** (1 / len(every))
         for vectors, factor, group in zip(basis, block, groups, strict=True):
-            state = vectors @ coefficients
-            for single in every[group]:
-                states.append(state)
-                state = single @ state / decay
+            states.append(vectors @ coefficients)
+            for single in every[group][:-1]:
+                states.append(single @ states[-1] / decay)
             coefficients = factor @ coefficients / decay ** (group.stop - group.start)
     return np.array(states)
 

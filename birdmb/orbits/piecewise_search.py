@@ -101,7 +101,7 @@ def search_piecewise(
 
     for _ in range(_MOST_MESHES):
         goal = max(tolerance, equations.round_off(u))
-        u, residual, _ = solve(
+        u, residual, _, _ = solve(
             equations,
             u,
             damping=damping,

@@ -9,7 +9,6 @@ from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
-import scipy.sparse as sp
 
 from birdmb._typing import FloatArray
 from birdmb.errors import ArgumentError, StateError
@@ -21,7 +20,7 @@ from birdmb.orbits.errors import (
 )
 from birdmb.orbits.iteration import Iteration
 from birdmb.orbits.linearisation import linearise
-from birdmb.orbits.newton import Damping, solve
+from birdmb.orbits.newton import Damping, Linear, factorise, solve
 from birdmb.orbits.periodic import periodic_multipliers
 from birdmb.orbits.periodicity import require_period
 from birdmb.orbits.problem import HasInitialGuess, Model
@@ -66,7 +65,7 @@ def search_by_shooting(
     ) -> _Found:
         work = Segments(model, scale, start_time, jacobian_method, executor)
         equations = ShootingEquations(work, period, autonomous)
-        first_jacobian = _first_jacobian(equations, points, period, first)
+        first_solver = _first_solver(equations, points, period, first)
         u = equations.pack(points, period)
 
         def solved(equations: ShootingEquations) -> _Found:
@@ -77,9 +76,9 @@ def search_by_shooting(
                 tolerance=tolerance,
                 max_iterations=max_iterations,
                 callback=callback,
-                first_jacobian=first_jacobian,
+                first_solver=first_solver,
             )
-            return equations, *found
+            return equations, *found[:3]
 
         try:
             return solved(equations)
@@ -150,12 +149,12 @@ def _along(work: Segments, points: FloatArray, period: float) -> FloatArray:
     )
 
 
-def _first_jacobian(
+def _first_solver(
     equations: ShootingEquations,
     points: FloatArray,
     period: float,
     guess: npt.ArrayLike | None,
-) -> sp.csc_array | None:
+) -> Linear | None:
     if guess is None:
         return None
     factors, (m, n) = np.array(guess, float), points.shape
@@ -164,7 +163,10 @@ def _first_jacobian(
             f"jacobian_guess must hold finite values of shape ({m}, {n}, {n}), not of "
             f"{factors.shape}."
         )
-    return equations.assemble(points, period, factors) if equations.expensive_jacobian else None
+    # A Jacobian that is singular says nothing about the equations at hand.
+    with suppress(np.linalg.LinAlgError):
+        return factorise(equations.assemble(points, period, factors))[0]
+    return None
 
 
 def period_or_guess(model: Model, period_guess: float | None) -> tuple[bool, float]:

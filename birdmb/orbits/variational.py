@@ -16,46 +16,47 @@ from scipy.special import eval_legendre, roots_jacobi
 from birdmb._typing import FloatArray
 from birdmb.orbits.trigonometric import between_nodes
 
-_STAGES, _FEWER_STAGES = 9, 7
-# Up to here nine stages are exact to a part in 1e12; beyond, an interval is divided.
-_LARGEST_STEP = 3.0
+_STAGES = 6
+# Up to here six stages are exact to a part in 1e12; beyond, an interval is divided.
+_LARGEST_STEP = 1.0
 _MOST_PARTS = 4
+# A mode that decays by more orders in a period leaves a multiplier below round-off of the others.
+_MOST_DECAY = -float(np.log(np.finfo(float).eps))
+_INSTANTS_SEEN = 8
 
 
 def flow_jacobians(rate_jacobians: FloatArray) -> FloatArray:
     """Flow Jacobians from node to node, (N, n, n).
 
     `rate_jacobians` (N, n, n) are those of the rates at the nodes, by phase (times the period).
+    What the stages leave of error falls off with the nodes faster than all other errors, so that
+    the distance from the same on more nodes covers it.
     """
-    return _integrated(rate_jacobians, _STAGES, _parts(rate_jacobians))
-
-
-def flow_jacobian_errors(rate_jacobians: FloatArray, factors: FloatArray) -> FloatArray:
-    """Bounds (N, n, n) of the errors of flow Jacobians: what fewer stages make of them."""
-    return np.abs(factors - _integrated(rate_jacobians, _FEWER_STAGES, _parts(rate_jacobians)))
-
-
-def _parts(rate_jacobians: FloatArray) -> int:
-    """Into how many parts an interval is divided."""
-    step = float(np.abs(rate_jacobians).sum(axis=2).max()) / len(rate_jacobians)
-    return int(np.clip(np.ceil(step / _LARGEST_STEP), 1, _MOST_PARTS))
-
-
-def _integrated(rate_jacobians: FloatArray, stages: int, parts: int) -> FloatArray:
     nodes, n, _ = rate_jacobians.shape
+    parts = _parts(rate_jacobians)
     count = nodes * parts
-    abscissae, weights = _radau(stages)
+    abscissae, weights = _radau(_STAGES)
     within = (np.arange(parts)[:, None] + abscissae).ravel() / parts
-    along = between_nodes(rate_jacobians, within).reshape(count, stages, n, n) / count
+    along = between_nodes(rate_jacobians, within).reshape(count, _STAGES, n, n) / count
     # Slopes K_i at the stages: K_i = A_i (I + sum_j w_ij K_j).
-    coupled = np.einsum("kiab,ij->kiajb", along, weights).reshape(count, stages * n, stages * n)
-    slopes = np.linalg.solve(np.eye(stages * n) - coupled, along.reshape(count, stages * n, n))
-    ends = np.einsum("i,kiab->kab", weights[-1], slopes.reshape(count, stages, n, n))
+    size = _STAGES * n
+    coupled = np.einsum("kiab,ij->kiajb", along, weights).reshape(count, size, size)
+    slopes = np.linalg.solve(np.eye(size) - coupled, along.reshape(count, size, n))
+    ends = np.einsum("i,kiab->kab", weights[-1], slopes.reshape(count, _STAGES, n, n))
     factors = (np.eye(n) + ends).reshape(nodes, parts, n, n)
     total = factors[:, 0]
     for part in range(1, parts):
         total = factors[:, part] @ total
     return total
+
+
+def _parts(rate_jacobians: FloatArray) -> int:
+    """Into how many parts an interval is divided, by the modes that live through a period."""
+    nodes = len(rate_jacobians)
+    seen = rate_jacobians[:: max(1, nodes // _INSTANTS_SEEN)] / nodes
+    rates = np.linalg.eigvals(seen)
+    steps = np.where(nodes * rates.real > -_MOST_DECAY, np.abs(rates), 0.0)
+    return int(np.clip(np.ceil(steps.max() / _LARGEST_STEP), 1, _MOST_PARTS))
 
 
 @functools.cache

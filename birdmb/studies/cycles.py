@@ -14,8 +14,8 @@ from birdmb._typing import FloatArray
 from birdmb.errors import OrbitError, StateError
 from birdmb.models import BirdModel, FlightCycle, FlightModel
 from birdmb.orbits import LimitCycle, find_limit_cycle
-from birdmb.orbits.collocation import FIRST_NODES
 from birdmb.orbits.collocation_search import nodes_shown
+from birdmb.orbits.enough_nodes import FIRST_NODES
 from birdmb.topology import Bird
 
 _MODELS_KEPT = 8

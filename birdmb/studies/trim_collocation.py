@@ -14,12 +14,9 @@ import numpy as np
 from birdmb._typing import FloatArray
 from birdmb.errors import StateError
 from birdmb.models.motion import planar_velocity
-from birdmb.orbits.collocation import (
-    Collocated,
-    CollocationEquations,
-    LatestJacobians,
-    collocate,
-)
+from birdmb.orbits.collocation import CollocationEquations, LatestJacobians
+from birdmb.orbits.enough_nodes import Collocated, collocate
+from birdmb.orbits.newton import Linear
 from birdmb.orbits.right_hand_side import RightHandSide
 from birdmb.orbits.trigonometric import resampled
 from birdmb.studies.cycles import KeptModels
@@ -143,6 +140,10 @@ class CollocatedTrim:
         if point.size:
             matrix[states.size :, : states.size] = self._means_by_state(u)
         return matrix
+
+    def product(self, u: FloatArray, rate_jacobians: FloatArray) -> Linear:
+        """What the derivative makes of a change of the unknowns."""
+        return self.assemble(u, rate_jacobians).__matmul__
 
     def start_and_period(self, u: FloatArray) -> tuple[FloatArray, float]:
         """State (n,) at t = 0, and period."""

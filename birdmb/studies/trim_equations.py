@@ -57,7 +57,7 @@ class TrimEquations:
             StateError: there is no flight to start from.
         """
         scale = self._model_at(point).state_scale
-        u, _, _ = solve(
+        found = solve(
             self,
             np.concatenate([x0 / scale, (point - self._low) / self._width]),
             damping="line-search",
@@ -65,7 +65,7 @@ class TrimEquations:
             max_iterations=ITERATIONS,
             shortest_damping=LEAST_DAMPING,
         )
-        point, x0, _ = self._unpacked(u)
+        point, x0, _ = self._unpacked(found.u)
         return point, x0
 
     def residual(self, u: FloatArray) -> FloatArray:

@@ -15,7 +15,7 @@ import numpy as np
 from birdmb.errors import BirdmbError, OrbitError, StateError
 from birdmb.models import FlightCycle, FlightModel
 from birdmb.orbits import NotSmoothError, find_limit_cycle
-from birdmb.orbits.collocation import FIRST_NODES
+from birdmb.orbits.enough_nodes import FIRST_NODES
 from birdmb.orbits.problem import HasGuessedPath, HasInitialGuess, HasRates
 from birdmb.quantities import described_by, valid_by
 from birdmb.studies.cycles import ModelFactory, path_for_search, shot_near

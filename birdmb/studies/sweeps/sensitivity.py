@@ -10,7 +10,7 @@ import numpy as np
 
 from birdmb._typing import FloatArray
 from birdmb.models import BirdModel, FlightCycle
-from birdmb.orbits.collocation import fewer_nodes
+from birdmb.orbits.enough_nodes import fewer_nodes
 from birdmb.studies.cycles import KeptModels, ModelFactory, path_at_nodes
 from birdmb.studies.sweeps.grid import Value
 from birdmb.studies.sweeps.settings import Trimming
