@@ -38,7 +38,6 @@ FLIGHTS: tuple[tuple[str, Model], ...] = (
     ("gull_glider", MULTIBODY),
 )
 IN_SPACE = ("ibis_tail", "pigeon")
-LATERAL = ("roll", "spiral", "Dutch roll")
 REFINED = ("ibis", "ibis_tail", "gull_glider")
 NUMBERS = ((16, 6), (32, 4), (32, 6), (32, 8), (64, 6), (64, 10))  # elements a wing, wake points
 FREQUENCIES: dict[str, tuple[float, ...]] = {
@@ -47,8 +46,10 @@ FREQUENCIES: dict[str, tuple[float, ...]] = {
 }
 AMPLITUDES = (32.0, 36.0, 40.0, 42.0)  # deg
 ROLL = {"forearm.roll.offset_deg": (-30.0, 30.0)}
-WIDEST, NARROWEST, NARROWER = 34.0, 6.0, 4.0  # openings of the tail, deg
-STIFFNESSES = (4.0, 4.3, 4.5, 4.7)  # N m/rad, without damping
+OPENINGS = (5.0, 10.0, 15.0, 20.0, 25.0, 30.0)  # of the tail, deg
+SOFTEST, STIFFNESSES = 4.0, (4.3, 4.5, 4.7)  # N m/rad, without damping
+FEW: dict[str, object] = {"wing__discretisation": 16, "air__wake_points": 4}
+TOLD = ("air", "m/s", "climb", "W as if level", "|Λ|max", "±", "verdict", "α, deg")
 COARSE: dict[str, object] = {"wing.discretisation": 4, "air.wake_points": 4}
 
 
@@ -123,7 +124,9 @@ class Report:
         given = {key.replace("__", "."): value for key, value in values.items()}
         return birdmb.load_bird(name).with_values({**(COARSE if self.coarse else {}), **given})
 
-    def table(self, name: str, title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]):
+    def table(
+        self, name: str, title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]
+    ) -> None:
         """Print a table, and keep it."""
         table = Table(*columns, title=title)
         for row in rows:
@@ -181,11 +184,10 @@ def flights(report: Report) -> None:
         parts.append([label, *(f"{value:.4f}" for value in values), *steps])
         labels.append(label)
         moduli.append(values)
-    columns = ("flight", "air", "m/s", "climb", "W as if level", "|Λ|max", "±", "verdict", "α, deg")
-    report.table("flights", "Flights without and with memory", columns, rows)
+    report.table("flights", "Flights without and with memory", ("flight", *TOLD), rows)
     columns = ("flight", "quasi-steady", "without lag", "unsteady", "at once", "by the lag")
     report.table("parts", "|Λ|max: what acts at once, and the lag", columns, parts)
-    report.picture("flights", moduli_picture(labels, np.array(moduli)))
+    report.picture("flights", changes_picture(labels, np.array(moduli)))
     lateral(report)
 
 
@@ -214,26 +216,32 @@ def lateral(report: Report) -> None:
             rows.append([name, "no flight"])
             continue
         for air, cycle in (("quasi-steady", effect.quasi_steady), ("unsteady", effect.unsteady)):
-            found = {mode.name: abs(mode.multiplier) for mode in cycle.flight_modes}
-            cells = [f"{found[mode]:.4f}" if mode in found else "" for mode in LATERAL]
-            rows.append([name, air, *cells, cycle.stability])
-    columns = ("flight in space", "air", *LATERAL, "verdict")
-    report.table("lateral", "Lateral modes, |Λ|", columns, rows)
+            # Roll may fade together with the wake, and be a mode of neither alone.
+            slow, *_ = (
+                abs(mode.multiplier)
+                for mode in cycle.flight_modes
+                if mode.plane == "lateral" and mode.multiplier.imag == 0.0
+            )
+            dutch, *_ = (
+                abs(mode.multiplier) for mode in cycle.flight_modes if mode.name == "Dutch roll"
+            )
+            rows.append([name, air, f"{slow:.4f}", f"{dutch:.4f}", cycle.stability])
+    columns = ("flight in space", "air", "spiral", "Dutch roll", "verdict")
+    report.table("lateral", "Slow lateral modes, |Λ|", columns, rows)
 
 
-def moduli_picture(labels: Sequence[str], moduli: FloatArray) -> Figure:
-    """|Λ|max of each flight, without memory, without its lag and with it."""
+def changes_picture(labels: Sequence[str], moduli: FloatArray) -> Figure:
+    """What memory adds to |Λ|max of each flight: at once, and with the lag."""
     figure = Figure(figsize=(8, 4), layout="constrained")
     axes = figure.subplots()
     places = np.arange(len(labels))
-    for values, mark, name in zip(
-        moduli.T, ("o", "|", "D"), ("quasi-steady", "without lag", "unsteady"), strict=True
-    ):
-        axes.plot(values, places, mark, label=name, ms=9 if mark == "|" else 6, mfc="none")
-    axes.axvline(1.0, color="0.6", lw=0.8)
-    axes.set_yticks(places, labels)
+    axes.plot(moduli[:, 1] - moduli[:, 0], places, "o", mfc="none", ms=8, label="without the lag")
+    axes.plot(moduli[:, 2] - moduli[:, 0], places, "D", ms=5, label="all of it")
+    axes.axvline(0.0, color="0.6", lw=0.8)
+    named = zip(labels, moduli[:, 0], strict=True)
+    axes.set_yticks(places, [f"{label} ({modulus:.3f})" for label, modulus in named])
     axes.invert_yaxis()
-    axes.set_xlabel("|Λ|max")
+    axes.set_xlabel("what memory adds to |Λ|max (that of quasi-steady air in brackets)")
     axes.legend(frameon=False)
     return figure
 
@@ -290,7 +298,7 @@ def frequency(report: Report) -> None:
         left.plot(hertz, remembered, "D--", color=colour, ms=4, label=f"{name}, with memory")
         right.plot(k, remembered - without, "o-", color=colour, label=name)
     left.axhline(0.0, color="0.6", lw=0.8)
-    left.set(xlabel="frequency of the beat, Hz", ylabel="growth of the slowest mode, 1/s")
+    left.set(xlabel="frequency of the beat, Hz", ylabel="growth of the least damped mode, 1/s")
     right.set(xlabel="reduced frequency k = π f c/U", ylabel="change of it by memory, 1/s")
     left.legend(frameon=False)
     report.picture("frequency", figure)
@@ -300,7 +308,8 @@ def openings(report: Report) -> None:
     """The opening of the tail at which level flight becomes stable, over the flap's amplitude."""
     rows, found = [], []
     for amplitude in AMPLITUDES[-1:] if report.coarse else AMPLITUDES:
-        bird = report.bird("ibis_tail", shoulder__flap__amplitude_deg=amplitude)
+        values = {} if report.coarse else FEW
+        bird = report.bird("ibis_tail", shoulder__flap__amplitude_deg=amplitude, **values)
         pair = [
             stable_opening(bird.with_values({"air.wake": wake}))
             for wake in ("quasi-steady", "unsteady")
@@ -321,24 +330,27 @@ def openings(report: Report) -> None:
 
 
 def stable_opening(bird: birdmb.Bird) -> float:
-    """Opening (deg) of the tail below which level flight is unstable; NaN if none is met."""
-    last: TrimGuess | None = None
-
-    def growth(opening: float) -> float:
-        nonlocal last
-        trim = birdmb.trim_flight(
-            bird.with_values({"tail.opening_deg": opening}), ROLL, tolerance=1e-6, guess=last
-        )
-        last = TrimGuess(trim.values, trim.cycle)
-        return float(np.log(largest(trim.cycle.multipliers)))
-
-    try:
-        for opening in np.arange(WIDEST, NARROWEST, -NARROWER).tolist():
-            if growth(opening) > 0.0:
-                return float(brentq(growth, opening, opening + NARROWER, xtol=1e-3))
-    except birdmb.BirdmbError:
-        pass
+    """Opening (deg) of the tail from which level flight is stable; NaN if none is met."""
+    before = None
+    for opening in OPENINGS:
+        try:
+            after = growth_when_level(bird, opening)
+            if before is not None and before > 0.0 > after:
+                growth = partial(growth_when_level, bird)
+                return float(brentq(growth, opening - OPENINGS[0], opening, xtol=1e-3))
+            before = after
+        except birdmb.BirdmbError:
+            before = None
     return np.nan
+
+
+def growth_when_level(bird: birdmb.Bird, opening: float) -> float:
+    """ln |Λ|max of level flight with the tail open so far (deg)."""
+    spread = bird.with_values({"tail.opening_deg": opening})
+    # With a guess the trim does without its slow ways where there is no level flight.
+    guess = TrimGuess({name: bird.value(name) for name in ROLL})
+    trim = birdmb.trim_flight(spread, ROLL, tolerance=1e-6, guess=guess)
+    return float(np.log(largest(trim.cycle.multipliers)))
 
 
 def shoulder(report: Report) -> None:
@@ -346,12 +358,12 @@ def shoulder(report: Report) -> None:
     rows = []
     figure = Figure(figsize=(8, 3.6), layout="constrained")
     left, right = figure.subplots(1, 2)
-    for model, cycle in undamped(report):
+    for model, cycle in undamped(report, **FEW):
         stiffness = model.bird.value("shoulder.flap.stiffness")
-        times = model.period * np.arange(len(cycle.points)) / len(cycle.points)
+        times = model.bird.period * np.arange(len(cycle.points)) / len(cycle.points)
         branch = birdmb.continue_branch(
             partial(Blend, model),
-            (0.0, 1.0),
+            (0.0, 0.05 if report.coarse else 1.0),
             model.with_lags(times, cycle.points),
             method="collocation",
             steps=Steps(longest=0.25),
@@ -379,24 +391,41 @@ def shoulder(report: Report) -> None:
     right.set(xlabel="part of the memory", ylabel="speed, m/s")
     left.legend(frameon=False)
     report.picture("shoulder", figure)
+    shoulder_searched(report)
 
 
-def undamped(report: Report) -> Iterator[tuple[birdmb.MultibodyModel, birdmb.FlightCycle]]:
+def shoulder_searched(report: Report) -> None:
+    """The same flights with and without memory on the full wing, found by a search."""
+    rows = []
+    for model, cycle in undamped(report):
+        stiffness = f"{model.bird.value('shoulder.flap.stiffness'):g}"
+        try:
+            effect = birdmb.memory_effect(cycle)
+        except birdmb.BirdmbError:
+            rows.append([stiffness, "quasi-steady alone", *told(cycle)])
+            continue
+        rows.append([stiffness, "quasi-steady", *told(cycle)])
+        rows.append(["", "unsteady", *told(effect.unsteady)])
+    report.table("shoulder_searched", "Undamped shoulders, the full wing", ("k", *TOLD), rows)
+
+
+def undamped(
+    report: Report, **values: object
+) -> Iterator[tuple[birdmb.MultibodyModel, birdmb.FlightCycle]]:
     """Models with a memory of undamped shoulders, each with its flight without one."""
+    bird = report.bird(
+        "ibis_compliant_shoulder",
+        shoulder__flap__damping=0.0,
+        air__wake="unsteady",
+        **({} if report.coarse else values),
+    )
+    # The coarse wing has no second sheet; the search for it starts on the softest shoulder.
     cycle = None
-    # The coarse wing has no second sheet there.
-    for stiffness in (12.0,) if report.coarse else STIFFNESSES:
-        model = MULTIBODY(
-            report.bird(
-                "ibis_compliant_shoulder",
-                shoulder__flap__damping=0.0,
-                shoulder__flap__stiffness=stiffness,
-                air__wake="unsteady",
-                air__wake_points=4,
-            )
-        )
+    for stiffness in (12.0,) if report.coarse else (SOFTEST, *STIFFNESSES):
+        model = MULTIBODY(bird.with_values({"shoulder.flap.stiffness": stiffness}))
         cycle = birdmb.find_limit_cycle(model.in_air(wake="quasi-steady"), cycle)
-        yield model, cycle
+        if stiffness != SOFTEST:
+            yield model, cycle
 
 
 def speed(point: BranchPoint) -> float:
