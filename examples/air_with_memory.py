@@ -363,11 +363,11 @@ def shoulder(report: Report) -> None:
         times = model.bird.period * np.arange(len(cycle.points)) / len(cycle.points)
         branch = birdmb.continue_branch(
             partial(Blend, model),
-            (0.0, 0.05 if report.coarse else 1.0),
+            (0.0, 1.0),
             model.with_lags(times, cycle.points),
             method="collocation",
             steps=Steps(longest=0.25),
-            max_points=30,
+            max_points=2 if report.coarse else 30,
         )
         changes = [found.parameter for found in branch.bifurcations]
         first, last = branch.points[0], branch.points[-1]
