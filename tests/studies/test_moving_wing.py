@@ -9,6 +9,7 @@ from birdmb.aerodynamics.wake_lags import BOUND_RATES, BOUND_SHARES
 from birdmb.orbits.trigonometric import interpolated
 from birdmb.studies.experiments.thin_airfoil import OscillatingSection, wagner_function
 from birdmb.studies.flight_regime import wake_deficiency
+from birdmb.topology import Stall
 
 # Half a chord, the speed and the density are 1; a wing so long that it is all section.
 SMALL = 1e-3
@@ -227,3 +228,31 @@ def test_what_cannot_be_is_refused(make, message):
 def loads_of(**choices):
     motion = WingMotion(heave=[0.0, 0.1])
     return moving_wing_loads(PlaneWing.rectangular(6.0, 1.0), motion, **{"speed": 1.0} | choices)
+
+
+def test_a_wing_that_stalls_needs_a_memory():
+    wing = birdmb.PlaneWing.rectangular(1.0, 0.2, stall=Stall(angle=0.2))
+    with pytest.raises(birdmb.ArgumentError, match="how far flow has separated is a memory"):
+        birdmb.moving_wing_loads(wing, birdmb.WingMotion(1.0), speed=5.0, wake="quasi-steady")
+
+
+def test_a_stall_that_is_never_reached_changes_nothing():
+    motion = birdmb.WingMotion(2.0, heave=[0.0, 0.01])
+    found = [
+        birdmb.moving_wing_loads(
+            birdmb.PlaneWing.rectangular(1.0, 0.2, stall=stall), motion, speed=5.0,
+            elements=8, wake_points=4, instants=33,
+        ).lift
+        for stall in (None, Stall(angle=np.radians(60.0)))
+    ]  # fmt: skip
+    np.testing.assert_allclose(found[1], found[0], atol=1e-4 * np.abs(found[0]).max())
+
+
+def test_what_separation_takes_is_the_gap_in_the_energy():
+    """Never negative but for the lag of separation, and positive on average."""
+    motion = birdmb.WingMotion(2.0, heave=[0.0, 0.15])
+    wing = birdmb.PlaneWing.rectangular(1.0, 0.2, stall=Stall(angle=np.radians(12.0)))
+    loads = birdmb.moving_wing_loads(
+        wing, motion, speed=5.0, elements=8, wake_points=4, instants=65
+    )
+    assert loads.energy_gap.mean() > 0.05 * loads.power.mean()

@@ -40,6 +40,11 @@ OTHERS = {
 STALL = Stall(angle=np.radians(15.0))
 
 
+def wing(stall: Stall | None = None) -> PlaneWing:
+    """The wing, with sections that stall so."""
+    return PlaneWing.rectangular(SPAN, CHORD, stall=stall)
+
+
 def thrust_coefficients(
     leads_deg: Sequence[float],
     choice: WakeChoice,
@@ -47,11 +52,11 @@ def thrust_coefficients(
     stall: Stall | None = None,
 ) -> FloatArray:
     """Mean thrust coefficients (P,) where pitching leads heaving by P angles, degrees."""
-    wing, found = PlaneWing.rectangular(SPAN, CHORD, stall=stall), []
+    found = []
     for lead in leads_deg:
         pitch = np.radians(pitch_deg) * np.exp(1j * np.radians(lead))
         motion = WingMotion(FREQUENCY, [0.0, HEAVE], [0.0, pitch], pitch_axis=PITCH_AXIS)
-        loads = moving_wing_loads(wing, motion, speed=SPEED, density=DENSITY, **choice)
+        loads = moving_wing_loads(wing(stall), motion, speed=SPEED, density=DENSITY, **choice)
         found.append(loads.mean_thrust_coefficient - PROFILE_DRAG)
     return np.array(found)
 
