@@ -358,7 +358,7 @@ def shoulder(report: Report) -> None:
     rows = []
     figure = Figure(figsize=(8, 3.6), layout="constrained")
     left, right = figure.subplots(1, 2)
-    for model, cycle in undamped(report, **FEW):
+    for model, cycle in undamped(report):
         stiffness = model.bird.value("shoulder.flap.stiffness")
         times = model.bird.period * np.arange(len(cycle.points)) / len(cycle.points)
         branch = birdmb.continue_branch(
@@ -391,33 +391,15 @@ def shoulder(report: Report) -> None:
     right.set(xlabel="part of the memory", ylabel="speed, m/s")
     left.legend(frameon=False)
     report.picture("shoulder", figure)
-    shoulder_searched(report)
 
 
-def shoulder_searched(report: Report) -> None:
-    """The same flights with and without memory on the full wing, found by a search."""
-    rows = []
-    for model, cycle in undamped(report):
-        stiffness = f"{model.bird.value('shoulder.flap.stiffness'):g}"
-        try:
-            effect = birdmb.memory_effect(cycle)
-        except birdmb.BirdmbError:
-            rows.append([stiffness, "quasi-steady alone", *told(cycle)])
-            continue
-        rows.append([stiffness, "quasi-steady", *told(cycle)])
-        rows.append(["", "unsteady", *told(effect.unsteady)])
-    report.table("shoulder_searched", "Undamped shoulders, the full wing", ("k", *TOLD), rows)
-
-
-def undamped(
-    report: Report, **values: object
-) -> Iterator[tuple[birdmb.MultibodyModel, birdmb.FlightCycle]]:
+def undamped(report: Report) -> Iterator[tuple[birdmb.MultibodyModel, birdmb.FlightCycle]]:
     """Models with a memory of undamped shoulders, each with its flight without one."""
     bird = report.bird(
         "ibis_compliant_shoulder",
         shoulder__flap__damping=0.0,
         air__wake="unsteady",
-        **({} if report.coarse else values),
+        **({} if report.coarse else FEW),
     )
     # The coarse wing has no second sheet; the search for it starts on the softest shoulder.
     cycle = None
