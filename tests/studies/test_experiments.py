@@ -165,6 +165,6 @@ def test_the_example_draws_the_cases_that_are_asked_for(tmp_path, monkeypatch, c
     example = Path(__file__).parents[2] / "examples" / "validation.py"
     runpy.run_path(str(example), run_name="__main__")
     rows = capsys.readouterr().out.splitlines()
-    assert "| CL_alpha | 4.638 | 4.814 |  | 4.814 |" in rows
+    assert "| CL_alpha | 4.638 | 4.814 |  | 4.814 |  |" in rows
     drawn = sorted(path.name for path in tmp_path.iterdir())
     assert drawn == ["validation_B.png", "validation_E.png"]
