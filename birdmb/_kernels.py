@@ -32,6 +32,7 @@ from numba.core.dispatcher import Dispatcher
 from numba.core.serialize import dumps
 from numba.misc.appdirs import AppDirs
 
+from birdmb._boxing import make_named_tuples_safe
 from birdmb.files import replace_file
 
 KernelT = TypeVar("KernelT", bound=Callable[..., Any])
@@ -41,7 +42,14 @@ _LEVEL = 1
 _PACKAGE = Path(__file__).parent
 config: Any = numba_config  # sets its attributes when it is imported
 _DIGEST = hashlib.sha256
-_VERSIONS = (platform.python_version(), *(version(p) for p in ("numba", "llvmlite", "numpy")))
+_BOXING = "2"  # changes with `birdmb._boxing`, which machine code holds
+_VERSIONS = (
+    platform.python_version(),
+    *(version(p) for p in ("numba", "llvmlite", "numpy")),
+    _BOXING,
+)
+
+make_named_tuples_safe()
 
 
 class KernelCacheWarning(UserWarning):

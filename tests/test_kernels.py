@@ -4,6 +4,7 @@ import os
 import re
 import subprocess
 import sys
+import textwrap
 from contextlib import suppress
 from pathlib import Path
 
@@ -187,3 +188,38 @@ def test_kernels_are_optimised_lightly_and_others_as_before(monkeypatch, fails):
     assert seen == [(1, ("arguments", "return type"))]
     assert config.OPT == 3
     assert compiler.name == "numba's"
+
+
+def test_a_signal_while_a_kernel_runs_is_raised_when_it_returns():
+    """Its handler raises where numba makes the named tuple of the result; see `birdmb._boxing`."""
+    stopped = textwrap.dedent("""
+        import signal
+        import numpy as np
+        import birdmb
+
+        class Stopped(Exception):
+            pass
+
+        def stop(*_):
+            raise Stopped
+
+        model = birdmb.RigidModel(birdmb.load_bird("ibis").with_values({"wing.discretisation": 8}))
+        times = np.linspace(0.0, 0.2, 2000)
+        states = np.tile(model.initial_guess(), (times.size, 1))
+        model.loads_along(times, states)
+        signal.signal(signal.SIGALRM, stop)
+        stops = 0
+        while stops < 20:
+            try:
+                signal.setitimer(signal.ITIMER_REAL, 1e-3)
+                while True:
+                    model.loads_along(times, states)
+            except Stopped:
+                stops += 1
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        print("stopped", stops)
+    """)
+    done = subprocess.run(
+        [sys.executable, "-c", stopped], check=False, capture_output=True, text=True
+    )
+    assert (done.returncode, done.stdout) == (0, "stopped 20\n"), done.stderr

@@ -200,7 +200,7 @@ def _remembered(
         placed,
         influence,
         shapes.stacks,
-        shapes.of[:, k : k + 1],
+        shapes.of[:, k : k + 1].copy(),
         twist.reshape(1, 6),
         rates.reshape(1, 2, -1),
         memory.driven[k : k + 1],

@@ -307,21 +307,23 @@ def integrate_rigid(
     rates = np.empty((steps + 1, n))
     states[0] = x0
     x = x0.copy()
+    # Not the constants: with each of these numba compiles all that follows anew.
+    wanted, unwanted = steps >= 0, steps < 0
     sensitivity = np.eye(n)
     for i in range(steps):
         k, g = 2 * i, air[2 * i + 1]
-        k1, j1 = rigid_rates(wing, left, wakes, lags, k, x, air[k], aero, body, True)
+        k1, j1 = rigid_rates(wing, left, wakes, lags, k, x, air[k], aero, body, wanted)
         s1 = j1 @ sensitivity
         k2, j2 = rigid_rates(
-            wing, left, wakes, lags, k + 1, x + 0.5 * step * k1, g, aero, body, True
+            wing, left, wakes, lags, k + 1, x + 0.5 * step * k1, g, aero, body, wanted
         )
         s2 = j2 @ (sensitivity + 0.5 * step * s1)
         k3, j3 = rigid_rates(
-            wing, left, wakes, lags, k + 1, x + 0.5 * step * k2, g, aero, body, True
+            wing, left, wakes, lags, k + 1, x + 0.5 * step * k2, g, aero, body, wanted
         )
         s3 = j3 @ (sensitivity + 0.5 * step * s2)
         k4, j4 = rigid_rates(
-            wing, left, wakes, lags, k + 2, x + step * k3, air[k + 2], aero, body, True
+            wing, left, wakes, lags, k + 2, x + step * k3, air[k + 2], aero, body, wanted
         )
         s4 = j4 @ (sensitivity + step * s3)
         x = x + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
@@ -329,5 +331,5 @@ def integrate_rigid(
         rates[i] = k1
         states[i + 1] = x
     k = 2 * steps
-    rates[steps], _ = rigid_rates(wing, left, wakes, lags, k, x, air[k], aero, body, False)
+    rates[steps], _ = rigid_rates(wing, left, wakes, lags, k, x, air[k], aero, body, unwanted)
     return states, rates, sensitivity

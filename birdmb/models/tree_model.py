@@ -251,8 +251,9 @@ class TreeModel(BirdModel):
             for each in self.motion_of_both(times, states)
         )
         twist = self._twist_through_air(times, space)
-        lags = states[:, self._lags]
-        motion = Motion(twist, gravity_along_body(space, self.bird.gravity), angles, rates, lags)
+        given = twist, gravity_along_body(space, self.bird.gravity), angles, rates
+        # All in one layout: the kernels are compiled anew for each other one.
+        motion = Motion(*map(np.ascontiguousarray, (*given, states[:, self._lags])))
         a, lag_rates = self.tree.accelerations(times, motion)
         found = np.empty(states.shape)
         joints = self.joint_states.states
