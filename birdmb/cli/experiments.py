@@ -42,7 +42,8 @@ def run(case: str | None, *, as_json: bool) -> None:
 
 
 def _print(console: Console, experiment: Experiment, compared: list[Comparison]) -> None:
-    models = [name for name in MODELS if any(name in one.computed for one in compared)]
+    attached = any(ATTACHED in one.computed for one in compared)
+    models = [name for name in MODELS if name != ATTACHED or attached]
     columns = ("quantity", "measured", *(_HEADINGS.get(name, name) for name in models))
     title = f"{experiment.case}: {experiment.title} ({experiment.source})"
     table = table_of(title, *columns, numbers=tuple(range(1, len(columns))))
