@@ -48,8 +48,8 @@ def test_trim_keeps_the_file_and_what_was_set_for_the_bird(run, tmp_path):
     ]
     opening, offset = (line for line, old in zip(after, before, strict=True) if line != old)
     assert opening == "opening_deg = 20.0              # angle between its sides, 0 if furled"
-    key, value, about_it = offset.partition("  # ")[0].split(" = ") + [offset.partition("  # ")[2]]
-    assert (key, about_it) == ("offset_deg", "levels the flight")
+    key, _, value = offset.removesuffix("  # levels the flight").partition(" = ")
+    assert key == "offset_deg"
     assert float(value) == pytest.approx(roll, rel=1e-14)
     assert birdmb.load_bird(out).wing.discretisation == "converged"
 
