@@ -1,4 +1,4 @@
-"""The program against measurements: `python examples/validation.py [DIR]`.
+"""The program against measurements: `python examples/validation.py [DIR] [--coarse]`.
 
 Prints the numbers of docs/validation.md and saves its figures in DIR (default results/): of all
 cases, or of the letters that follow, as in `python examples/validation.py results A B`.
@@ -219,6 +219,10 @@ def table(compared: list[Comparison]) -> str:
     return "\n".join(lines)
 
 
+# With --coarse, the cases that take seconds.
+QUICK = ("B", "E")
+
+
 def main(directory: Path, letters: list[str]) -> None:
     """Print the tables and save the figures."""
     directory.mkdir(parents=True, exist_ok=True)
@@ -232,4 +236,6 @@ def main(directory: Path, letters: list[str]) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1] if len(sys.argv) > 1 else "results"), sys.argv[2:])
+    given = [word for word in sys.argv[1:] if word != "--coarse"]
+    quick = list(QUICK) if "--coarse" in sys.argv else []
+    main(Path(given[0] if given else "results"), given[1:] or quick)

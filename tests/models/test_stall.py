@@ -11,6 +11,8 @@ from birdmb.aerodynamics.wake_lags import BOUND_RATES, BOUND_SHARES
 
 from .stalling import NORMAL, SLOPE, SPEED, STALL, WIDTH, plate, polar, steady_state
 
+pytestmark = pytest.mark.long
+
 BY_ANGLE = {"angle_deg": STALL, "width_deg": WIDTH}
 STALLING = {
     "air.wake": "unsteady",

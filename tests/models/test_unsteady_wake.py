@@ -6,6 +6,8 @@ import pytest
 import birdmb
 from birdmb.models.motion import FREE
 
+pytestmark = pytest.mark.long
+
 UNSTEADY = {"air.wake": "unsteady", "air.wake_points": 4}
 TIMES = np.array([0.03, 0.11, 0.2])
 LATERAL = [1, 3, 5, 6]

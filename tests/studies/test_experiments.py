@@ -24,6 +24,8 @@ from birdmb.studies.moving_wing.plane_wing import lifting_line
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.shape import wing_shape
 
+pytestmark = pytest.mark.long
+
 
 def compared(case):
     (experiment,) = experiments(case)

@@ -9,6 +9,8 @@ import birdmb
 from birdmb.studies.flight_regime import flight_regime, regime_warnings
 from tests.cli.conftest import run as run_fixture
 
+pytestmark = pytest.mark.long
+
 run = run_fixture
 COARSE = {"wing.discretisation": 8, "air.wake_points": 4}
 

@@ -5,6 +5,8 @@ import pytest
 
 import birdmb
 
+pytestmark = pytest.mark.long
+
 # Heavy and slow: attached flow would need 22 degrees.
 PUSHED = {
     "body.mass": 2.0,
