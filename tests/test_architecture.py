@@ -11,7 +11,17 @@ import pytest
 ROOT = Path(__file__).parents[1]
 # Each may import those before it; `orbits` no bird, whatever stands before it.
 FOUNDATIONS = {
-    *("_kernels", "_starting", "_typing", "errors", "files", "provenance", "quantities", "seal"),
+    *(
+        "_boxing",
+        "_kernels",
+        "_starting",
+        "_typing",
+        "errors",
+        "files",
+        "provenance",
+        "quantities",
+        "seal",
+    ),
     *("text", "threads"),
 }
 ROOMS = (
