@@ -24,9 +24,11 @@ def _boxed(kind: Any, value: Any, context: Any) -> Any:
     for i, part in enumerate(kind):
         api.tuple_setitem(parts, i, context.box(part, builder.extract_value(value, i)))
     with builder.if_then(_code.is_null(builder, api.err_occurred())):
+        # Where it was not known yet, Python code finds it, too.
         factory = api.unserialize(api.serialize_object(kind.instance_class))
-        builder.store(api.call(factory, parts), result)
-        api.decref(factory)
+        with builder.if_then(_code.is_not_null(builder, factory)):
+            builder.store(api.call(factory, parts), result)
+            api.decref(factory)
     api.decref(parts)
     return builder.load(result)
 
