@@ -190,6 +190,7 @@ def test_kernels_are_optimised_lightly_and_others_as_before(monkeypatch, fails):
     assert compiler.name == "numba's"
 
 
+@pytest.mark.long
 def test_a_signal_while_a_kernel_runs_is_raised_when_it_returns():
     """Its handler raises where numba makes the named tuple of the result; see `birdmb._boxing`."""
     stopped = textwrap.dedent("""
