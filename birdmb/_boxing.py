@@ -21,9 +21,14 @@ def _boxed(kind: Any, value: Any, context: Any) -> Any:
     builder, api = context.builder, context.pyapi
     result = _code.alloca_once_value(builder, api.get_null_object())
     parts = api.tuple_new(kind.count)
+    # That all parts were made is asked besides: what was raised may be lost while others are made.
+    sound = _code.true_bit
     for i, part in enumerate(kind):
-        api.tuple_setitem(parts, i, context.box(part, builder.extract_value(value, i)))
-    with builder.if_then(_code.is_null(builder, api.err_occurred())):
+        made = context.box(part, builder.extract_value(value, i))
+        sound = builder.and_(sound, _code.is_not_null(builder, made))
+        api.tuple_setitem(parts, i, made)
+    sound = builder.and_(sound, _code.is_null(builder, api.err_occurred()))
+    with builder.if_then(sound):
         # Where it was not known yet, Python code finds it, too.
         factory = api.unserialize(api.serialize_object(kind.instance_class))
         with builder.if_then(_code.is_not_null(builder, factory)):
