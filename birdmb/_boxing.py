@@ -21,14 +21,15 @@ def _boxed(kind: Any, value: Any, context: Any) -> Any:
     builder, api = context.builder, context.pyapi
     result = _code.alloca_once_value(builder, api.get_null_object())
     parts = api.tuple_new(kind.count)
-    # That all parts were made is asked besides: what was raised may be lost while others are made.
-    sound = _code.true_bit
+    sound = _code.alloca_once_value(builder, _code.true_bit)
     for i, part in enumerate(kind):
-        made = context.box(part, builder.extract_value(value, i))
-        sound = builder.and_(sound, _code.is_not_null(builder, made))
-        api.tuple_setitem(parts, i, made)
-    sound = builder.and_(sound, _code.is_null(builder, api.err_occurred()))
-    with builder.if_then(sound):
+        # None after one that raised: more of Python's code would lose what was raised.
+        with builder.if_then(builder.load(sound)):
+            made = context.box(part, builder.extract_value(value, i))
+            builder.store(_code.is_not_null(builder, made), sound)
+            api.tuple_setitem(parts, i, made)
+    nothing_raised = _code.is_null(builder, api.err_occurred())
+    with builder.if_then(builder.and_(builder.load(sound), nothing_raised)):
         # Where it was not known yet, Python code finds it, too.
         factory = api.unserialize(api.serialize_object(kind.instance_class))
         with builder.if_then(_code.is_not_null(builder, factory)):

@@ -42,7 +42,7 @@ _LEVEL = 1
 _PACKAGE = Path(__file__).parent
 config: Any = numba_config  # sets its attributes when it is imported
 _DIGEST = hashlib.sha256
-_BOXING = "4"  # changes with `birdmb._boxing`, which machine code holds
+_BOXING = "5"  # changes with `birdmb._boxing`, which machine code holds
 _VERSIONS = (
     platform.python_version(),
     *(version(p) for p in ("numba", "llvmlite", "numpy")),

@@ -22,6 +22,7 @@ from birdmb._kernels import kernel
 from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.elements import Elements
 from birdmb.aerodynamics.section_motion import SectionMotion
+from birdmb.wing.rotations import cross
 
 
 class ApparentInertia(NamedTuple):
@@ -108,13 +109,6 @@ def body_twists(elements: Elements, directions: IntArray) -> FloatArray:
 
 
 @kernel
-def _cross(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
-    out[0] = a[1] * b[2] - a[2] * b[1]
-    out[1] = a[2] * b[0] - a[0] * b[2]
-    out[2] = a[0] * b[1] - a[1] * b[0]
-
-
-@kernel
 def _dot(a: FloatArray, b: FloatArray) -> float:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
@@ -139,7 +133,7 @@ def apparent_wrenches(
     moves[0] = twist
     for m in range(directions.size):
         moves[m + 1, directions[m]] = 1.0
-    middle, cross, other = np.empty(3), np.empty(3), np.empty(3)
+    middle, passing, other = np.empty(3), np.empty(3), np.empty(3)
     velocity, spin = twist[:3], twist[3:]
     for e in range(n):
         chord, normal, span = (
@@ -154,16 +148,16 @@ def apparent_wrenches(
         turning = 0.0
         for m in range(columns):
             dv, dw = moves[m, :3], moves[m, 3:]
-            _cross(dw, middle, cross)
+            cross(dw, middle, passing)
             for i in range(3):
-                cross[i] += dv[i] + (motion.middle_velocity[e, i] if m == 0 else 0.0)
-            change = -_dot(motion.normal_rate[e], cross)
-            d_along = -_dot(chord, cross)
+                passing[i] += dv[i] + (motion.middle_velocity[e, i] if m == 0 else 0.0)
+            change = -_dot(motion.normal_rate[e], passing)
+            d_along = -_dot(chord, passing)
             d_turning = _dot(span, dw) + (motion.pitch_rate[e] if m == 0 else 0.0)
             d_spinning = _dot(motion.span_rate[e], dw)
-            _cross(dw, motion.middle_velocity[e], other)
+            cross(dw, motion.middle_velocity[e], other)
             change -= _dot(normal, other)
-            _cross(dw, velocity, other)
+            cross(dw, velocity, other)
             change += _dot(normal, other)
             if m == 0:
                 along, turning = d_along, d_turning
@@ -171,7 +165,7 @@ def apparent_wrenches(
                 d_spinning += motion.pitch_acceleration[e]
                 product, square = along * turning, turning * turning
             else:
-                _cross(spin, dv, other)
+                cross(spin, dv, other)
                 change += _dot(normal, other)
                 product = d_along * turning + along * d_turning
                 square = 2.0 * turning * d_turning

@@ -21,7 +21,7 @@ from birdmb.aerodynamics.elements import Elements
 from birdmb.aerodynamics.pair import pair_system, pair_wrench
 from birdmb.aerodynamics.prescribed import PrescribedWing, at_phase
 from birdmb.aerodynamics.section_motion import SectionMotion, section_motion
-from birdmb.aerodynamics.twist_loads import wing_wrench
+from birdmb.aerodynamics.twist_loads import mirror_sign, wing_wrench
 from birdmb.aerodynamics.unsteady_circulation import (
     LagSystem,
     lag_system,
@@ -29,7 +29,7 @@ from birdmb.aerodynamics.unsteady_circulation import (
 )
 from birdmb.aerodynamics.unsteady_loads import SideFlow, side_flow, side_wrenches
 from birdmb.aerodynamics.wake_lags import WakeLags
-from birdmb.wing.stacked import StackedShapes, shape_at
+from birdmb.wing.stacked import NearShapes, shape_at
 
 
 class LagTable(NamedTuple):
@@ -42,14 +42,6 @@ class LagTable(NamedTuple):
     left: SectionMotion
     inertia: FloatArray  # (P, 6, 6) kg, kg m and kg m2, of the air about both wings
     lags: WakeLags
-
-
-class NearbyShapes(NamedTuple):
-    """Shapes of a wing at P phases a short time before and after, moved at the phases' rates."""
-
-    before: StackedShapes
-    after: StackedShapes
-    step: float  # s
 
 
 def no_lags(lags: WakeLags) -> LagTable:
@@ -107,8 +99,8 @@ def _empty(count: int, n: int, sides: int, lags: WakeLags) -> LagTable:
 def lag_table(
     right: PrescribedWing,
     left: PrescribedWing,
-    nearby: NearbyShapes,
-    nearby_left: NearbyShapes,
+    near: NearShapes,
+    near_left: NearShapes,
     lags: WakeLags,
     is_mirrored: bool,
     density: float,
@@ -128,17 +120,18 @@ def lag_table(
         table.inertia[k] = 0.0
         for side in range(2):
             wing = elements if side == 0 else image
-            shapes = right.shapes if side == 0 else left.shapes
-            close = nearby if side == 0 else nearby_left
+            shapes = near if side == 0 else near_left
             motion = section_motion(
-                shape_at(close.before, k), shape_at(shapes, k), shape_at(close.after, k), close.step
+                shape_at(shapes.before, k),
+                shape_at(shapes.now, k),
+                shape_at(shapes.after, k),
+                shapes.step,
             )
             _keep(table.right if side == 0 else table.left, k, motion)
             own = inertia_matrix(wing, apparent_inertia(wing, density), body_twists(wing, whole))
             for i in range(6):
                 for j in range(6):
-                    # Mirrored: couplings of symmetric and antisymmetric components change sign.
-                    sign = 1.0 if side == 0 or (i % 2 == 0) == (j % 2 == 0) else -1.0
+                    sign = 1.0 if side == 0 else mirror_sign(i) * mirror_sign(j)
                     table.inertia[k, i, j] += sign * own[i, j]
     return table
 

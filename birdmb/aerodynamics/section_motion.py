@@ -13,6 +13,7 @@ import numpy as np
 from birdmb._kernels import kernel
 from birdmb._typing import FloatArray
 from birdmb.aerodynamics.elements import Elements
+from birdmb.wing.rotations import cross
 from birdmb.wing.shape import WingShape
 
 
@@ -91,21 +92,21 @@ def turned_sections(
             pitch_rate[e] += span[i] * spin[i]
             pitch_acceleration[e] += span_rate[e, i] * spin[i] + span[i] * change[i]
             at[i] = elements.position[e, i] - root[i] + quarter * elements.chord_direction[e, i]
-        _cross(spin, middle[e], moves)
+        cross(spin, middle[e], moves)
         acceleration[e] += 2.0 * moves
-        _cross(change, at, moves)
+        cross(change, at, moves)
         acceleration[e] += moves
-        _cross(spin, at, moves)
+        cross(spin, at, moves)
         middle[e] += moves
-        _cross(spin, moves, again)
+        cross(spin, moves, again)
         acceleration[e] += again
         for i in range(3):
             at[i] += quarter * elements.chord_direction[e, i]
-        _cross(spin, at, moves)
+        cross(spin, at, moves)
         rear[e] += moves
-        _cross(spin, elements.normal[e], moves)
+        cross(spin, elements.normal[e], moves)
         normal_rate[e] += moves
-        _cross(spin, span, moves)
+        cross(spin, span, moves)
         span_rate[e] += moves
     return SectionMotion(
         rear,
@@ -116,10 +117,3 @@ def turned_sections(
         normal_rate,
         span_rate,
     )
-
-
-@kernel
-def _cross(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
-    out[0] = a[1] * b[2] - a[2] * b[1]
-    out[1] = a[2] * b[0] - a[0] * b[2]
-    out[2] = a[0] * b[1] - a[1] * b[0]

@@ -154,7 +154,7 @@ def _separation(
     system: LagSystem, lags: WakeLags, lifting: FloatArray, speed: FloatArray, states: FloatArray
 ) -> Separation:
     """What separated flow does, of all lags."""
-    kept, block = lags.kept.size, 5 * lags.kept.size
+    kept, block = lags.kept.size, _kinds(lags) * lags.kept.size
     sides = states.size // block
     attached = np.empty(sides * kept)
     for side in range(sides):
@@ -177,7 +177,7 @@ def _separation(
 @kernel
 def _put_shares(lags: WakeLags, shares: FloatArray, rates: FloatArray) -> None:
     """Put the rates (S K, 1 + D) of the attached shares among those of all lags."""
-    kept, block = lags.kept.size, 5 * lags.kept.size
+    kept, block = lags.kept.size, _kinds(lags) * lags.kept.size
     for side in range(shares.shape[0] // kept):
         last = (side + 1) * block
         rates[last - kept : last] = shares[side * kept : (side + 1) * kept]

@@ -26,9 +26,9 @@ from birdmb.aerodynamics.wake_lags import WakeLags
 from birdmb.models.placed_wing import PlacedWing, place_wing, spin_of
 from birdmb.models.springs import Springs
 from birdmb.models.tree_kernel import TreeLinks
-from birdmb.models.unsteady_kernel import NearShapes, air_inertia, unsteady_rows
+from birdmb.models.unsteady_kernel import air_inertia, unsteady_rows
 from birdmb.wing.arrays import JointArrays
-from birdmb.wing.stacked import StackedShapes, shape_at, velocity_at
+from birdmb.wing.stacked import NearShapes, StackedShapes, shape_at, velocity_at
 
 
 class Constants(NamedTuple):

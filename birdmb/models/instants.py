@@ -12,10 +12,9 @@ import numpy as np
 from birdmb._typing import FloatArray
 from birdmb.aerodynamics.prescribed import driver_motion_along
 from birdmb.models.failures import lifting_line_lost
-from birdmb.models.unsteady_kernel import NearShapes
 from birdmb.topology import Bird
 from birdmb.wing.arrays import WingArrays
-from birdmb.wing.stacked import StackedShapes, wing_shapes
+from birdmb.wing.stacked import NearShapes, StackedShapes, wing_shapes
 
 _INSTANTS_KEPT = 8192
 # Of a beat: differences over it err by 1e-8, and round-off by 1e-10.

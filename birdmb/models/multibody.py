@@ -19,14 +19,14 @@ from birdmb.models.starts import (
     steady_states,
     steady_turns,
 )
-from birdmb.models.tree_model import TreeModel
+from birdmb.models.tree_actuators import ActuatedTree
 from birdmb.models.wake_states import without_memory
 from birdmb.orbits import find_limit_cycle
 
 _BEATS_TO_SETTLE = 6
 
 
-class MultibodyModel(TreeModel):
+class MultibodyModel(ActuatedTree):
     """Body and both wings as one kinematic tree; prescribed joints follow their drivers exactly.
 
     The states are the body's, as `motion` says, then angle (rad) and rate (rad/s) of each compliant

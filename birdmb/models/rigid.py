@@ -23,7 +23,6 @@ from birdmb.aerodynamics.prescribed import (
 )
 from birdmb.aerodynamics.prescribed_lags import (
     LagTable,
-    NearbyShapes,
     every_second_lag,
     lag_table,
     no_lags,
@@ -45,12 +44,11 @@ from birdmb.models.refusals import refuse_asymmetric, require_inertia
 from birdmb.models.rigid_kernel import RigidBody, integrate_rigid, rates_along
 from birdmb.models.starts import INCIDENCES, PATH_ANGLES, SPEEDS, steady_states, steady_turns
 from birdmb.models.trim import mean_trim
-from birdmb.models.unsteady_kernel import NearShapes
 from birdmb.models.wake_states import wake_states
 from birdmb.models.wing_model import STEPS_PER_BEAT, BirdModel
 from birdmb.topology import SIDES, Bird
 from birdmb.wing.arrays import WingArrays
-from birdmb.wing.stacked import StackedShapes, wing_shapes
+from birdmb.wing.stacked import NearShapes, StackedShapes, wing_shapes
 
 _ORDER = 4
 _TOLERANCE = 1e-6
@@ -138,12 +136,10 @@ class RigidModel(BirdModel):
         right = every_second(fine.right)
         left = right if fine.left is fine.right else every_second(fine.left)
         coarse = RigidTable(right, left, self._wakes(right, left), every_second_lag(fine.lags))
-        start = self.initial_guess()
+        start, still = self.initial_guess(), np.zeros((2 * steps + 1, 3))
         ends = [
-            integrate_rigid(*table, start, period / n, np.zeros((2 * n + 1, 3)), *self._constants)[
-                0
-            ][-1]
-            for table, n in ((fine, steps), (coarse, steps // 2))
+            integrate_rigid(*table, start, period / n, air, *self._constants)[0][-1]
+            for table, n, air in ((fine, steps, still), (coarse, steps // 2, still[::2].copy()))
         ]
         return float(np.abs((ends[0] - ends[1]) / self.state_scale).max()) / (2**_ORDER - 1)
 
@@ -326,14 +322,19 @@ class RigidModel(BirdModel):
         lags = self.wake.lags
         if not self.wake.count:
             return no_lags(lags)
-        nearby = self._nearby(self.wing, times)
-        other = nearby if left is right else self._nearby(self.left_wing, times)
-        return lag_table(right, left, nearby, other, lags, self.is_mirrored, self.aero.density)
+        near = self._near_shapes(self.wing, times, right)
+        near_left = near if left is right else self._near_shapes(self.left_wing, times, left)
+        return lag_table(right, left, near, near_left, lags, self.is_mirrored, self.aero.density)
 
-    def _nearby(self, arrays: WingArrays, times: FloatArray) -> NearbyShapes:
+    def _near_shapes(
+        self, arrays: WingArrays, times: FloatArray, wing: PrescribedWing
+    ) -> NearShapes:
+        """Shapes of a tabulated wing, with those nearby in time where the air remembers."""
+        if not self.wake.count:
+            return NearShapes(wing.shapes, wing.shapes, wing.shapes, 1.0)
         step = NEARBY * self.bird.period
         before, after = (self._shapes_at(arrays, near) for near in (times - step, times + step))
-        return NearbyShapes(before, after, step)
+        return NearShapes(wing.shapes, before, after, step)
 
     def _shapes_at(self, arrays: WingArrays, times: FloatArray) -> StackedShapes:
         angles, rates, _ = driver_motion_along(arrays, times)
@@ -356,14 +357,6 @@ class RigidModel(BirdModel):
         if table.left is not table.right:
             left = self._near_shapes(self.left_wing, distinct, table.left)
         return Shapes((right, left), np.stack([phase, phase]))
-
-    def _near_shapes(
-        self, arrays: WingArrays, times: FloatArray, wing: PrescribedWing
-    ) -> NearShapes:
-        if not self.wake.count:
-            return NearShapes(wing.shapes, wing.shapes, wing.shapes, 1.0)
-        near = self._nearby(arrays, times)
-        return NearShapes(wing.shapes, near.before, near.after, near.step)
 
     def wing_at(self, times: FloatArray) -> PrescribedWing:
         """The right wing on its drivers at `times` (P,) s.

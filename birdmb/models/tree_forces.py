@@ -48,8 +48,8 @@ def tree_loads(
     v: FloatArray,
     lags: FloatArray,
     air: FloatArray,
-) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Forces, inertia and rates of the lags as in `TreeLoads`, and the wings' `clearance` (2,) m.
+) -> tuple[TreeLoads, FloatArray]:
+    """What acts on Exudyn's tree, and the wings' `clearance` (2,) m.
 
     At coordinates q and velocities v (n,) of the tree, those of the body being some of
     `tree_coordinates.COORDINATES`, at `lags` (L,) and in air of velocity `air` (3,) m/s forwards,
@@ -58,12 +58,12 @@ def tree_loads(
     """
     body, angles = coordinates.size, drivers.angles.shape[1]
     remembers = q.size if lags.size else 0
-    # Not a named tuple: numba has Python make it, and a signal's handler that raises in there ends
-    # the process.
-    forces, lag_rates = np.full(q.size, np.nan), np.full(lags.size, np.nan)
-    inertia = np.zeros((remembers, remembers))
+    acting = TreeLoads(
+        np.full(q.size, np.nan), np.zeros((remembers, remembers)), np.full(lags.size, np.nan)
+    )
+    forces = acting.forces
     if not (np.isfinite(q).all() and np.isfinite(v).all()):
-        return forces, inertia, lag_rates, np.zeros(2)
+        return acting, np.zeros(2)
     place, moves = whole(q[:body], coordinates), whole(v[:body], coordinates)
     twist = space_state(place, moves)[:6].copy()
     seen = place.copy()
@@ -80,8 +80,8 @@ def tree_loads(
     found = air_forces(constants, shapes, motion, drivers.accelerations[0], np.zeros(1, np.int64))
     loads = found.forces
     if lags.size:
-        lag_rates[:] = found.lag_rates[0]
-        _resist(constants, coordinates, place, moves, found, inertia)
+        acting.lag_rates[:] = found.lag_rates[0]
+        _resist(constants, coordinates, place, moves, found, acting.inertia)
     wrench = np.zeros(6)
     for b in range(body):
         wrench[constants.links.directions[b]] = loads[0, b]
@@ -95,7 +95,7 @@ def tree_loads(
     forces[joints] = torques
     if constants.is_mirrored:
         forces[body + angles :] = torques
-    return forces, inertia, lag_rates, found.clearance
+    return acting, found.clearance
 
 
 @kernel

@@ -14,14 +14,13 @@ from birdmb.models.air_kernel import Motion, Shapes
 from birdmb.models.compiled_calls import COMPILED, calls_compiled_code
 from birdmb.models.determinacy import refuse_undetermined
 from birdmb.models.exudyn_bird import ExudynBird
-from birdmb.models.failures import overflow_told, refuse_runaway
+from birdmb.models.failures import refuse_runaway
 from birdmb.models.flight import Flight
 from birdmb.models.gusts import Gust
 from birdmb.models.implicit import integrate_implicitly
 from birdmb.models.instants import Instants
 from birdmb.models.integration import Integration, Integrator, integration_for
 from birdmb.models.joint_states import JointStates
-from birdmb.models.loads import LoadsAlong
 from birdmb.models.motion import (
     FREE,
     HELD,
@@ -31,14 +30,12 @@ from birdmb.models.motion import (
     gravity_along_body,
     motion_named,
 )
-from birdmb.models.partition import partitioned
 from birdmb.models.refusals import held_state, refuse_asymmetric, require_inertia
 from birdmb.models.rigid import RigidModel
-from birdmb.models.springs import Springs, has_two_sides, spring_torques_along, springs_of
+from birdmb.models.springs import Springs, has_two_sides, springs_of
 from birdmb.models.tree_coordinates import (
     IN_PLANE,
     IN_SPACE,
-    body_forces,
     coordinates_along,
     space_state,
     state_rates,
@@ -266,69 +263,6 @@ class TreeModel(BirdModel):
         found[:, joints][:, 1::2] = a[:, self.motion.directions.size :]
         found[:, self._lags] = lag_rates
         return found
-
-    def accelerations(self, t: float, x: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """Accelerations (n,) of all coordinates and the actuators' forces (n,) on them.
-
-        Coordinates of the body as `tree_coordinates.COORDINATES`, in the plane of symmetry X, Z (m)
-        and pitch (rad) alone, then joints and hinges of the right and of the left wing (rad). The
-        forces (N, N m) are those that hold the prescribed joints to their drivers, without springs
-        and dampers, and a held body in its motion.
-        """
-        times, states = np.array([t]), np.asarray(x, dtype=float)[None, :]
-        a, forces = self._accelerations(times, states, self.loads_along(times, states))
-        return a[0], forces[0]
-
-    @calls_compiled_code
-    def _accelerations(
-        self, times: FloatArray, states: FloatArray, loads: LoadsAlong
-    ) -> tuple[FloatArray, FloatArray]:
-        """As `accelerations`, each (K, c)."""
-        q, v = self._coordinates(times, states)
-        mass, bias = self.tree.inertia.at(q, v)
-        torques = loads.joint_torques + self._spring_torques_along(times, states)
-        place, _ = coordinates_along(self.body_in_space(states))
-        on_body = body_forces(place, np.hstack([loads.stack.force, loads.stack.moment]))
-        _, _, driving = self.drivers_of_both(times)
-        count = times.size
-        given = np.zeros(q.shape)
-        given[:, self._joints] = driving.reshape(count, -1)
-        applied = np.hstack([on_body[:, self._coordinates_of_body], torques.reshape(count, -1)])
-        with overflow_told(self.bird, f"the acceleration at t = {times[0]:.4g} s"):
-            return partitioned(mass, bias - applied, given, self.prescribed)
-
-    def _spring_torques_along(self, times: FloatArray, states: FloatArray) -> FloatArray:
-        """Torques (K, 2, A) N m of springs and dampers."""
-        angles, rates = self.motion_of_both(times, states)
-        driver_angles, driver_rates, _ = self.drivers_of_both(times)
-        flat = times.size, -1
-        torques = spring_torques_along(
-            self._springs,
-            (angles - driver_angles).reshape(flat),
-            (rates - driver_rates).reshape(flat),
-        )
-        return np.asarray(torques.reshape(angles.shape))
-
-    def actuator_torques_along(
-        self, times: FloatArray, states: FloatArray, loads: LoadsAlong
-    ) -> FloatArray:
-        """Torques (K, 2, A) N m that move joints and hinges of the right and of the left wing.
-
-        Of the actuators that hold prescribed joints to their drivers, inertia included; of spring
-        and damper where a joint is compliant.
-        """
-        _, forces = self._accelerations(times, states, loads)
-        springs = self._spring_torques_along(times, states)
-        return np.asarray(forces[:, self._joints].reshape(springs.shape) + springs)
-
-    def holding_power(self, times: FloatArray, states: FloatArray, loads: LoadsAlong) -> FloatArray:
-        """Power (K,) W of what holds the body in its motion; 0 where it flies."""
-        if self._held is None:
-            return super().holding_power(times, states, loads)
-        _, forces = self._accelerations(times, states, loads)
-        body = self._coordinates_of_body.size
-        _, v = self._coordinates(times, states)
-        return np.asarray((forces[:, :body] * v[:, :body]).sum(axis=1))
 
     def _joint_accelerations(
         self, rates: FloatArray, driven: FloatArray

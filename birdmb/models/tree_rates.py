@@ -98,12 +98,12 @@ class TreeRates:
             angles, rates = drivers.angles, drivers.rates  # any will do: there are no forces
         with overflow_told(self._bird, f"the force of the air at t = {t:.4g} s"):
             shapes = self.shapes_at(instants, times, np.zeros(1, np.int64), angles, rates)
-            *loads, clearance = tree_loads(
+            loads, clearance = tree_loads(
                 self.constants, shapes, drivers, self._coordinates, q, v, lags, air
             )
         if not clearance.min() >= 0.0:
             self._refuse_misplaced(times, angles, clearance[None])
-        return TreeLoads(*loads)
+        return loads
 
     def driver_accelerations(self, t: float) -> FloatArray:
         """Accelerations (n,) of the drivers, 0 for the body; only prescribed joints follow."""

@@ -23,20 +23,7 @@ from birdmb.aerodynamics.unsteady_loads import SideFlow, side_flow, side_wrenche
 from birdmb.aerodynamics.wake_lags import WakeLags
 from birdmb.models.placed_wing import PlacedWing, spin_change, spin_of
 from birdmb.wing.arrays import JointArrays
-from birdmb.wing.stacked import StackedShapes, shape_at
-
-
-class NearShapes(NamedTuple):
-    """Shapes of one wing, and those a short time before and after, moved at the same rates.
-
-    All with the joints at zero that turn the wing as a whole. The other joints that follow drivers
-    have accelerated by theirs.
-    """
-
-    now: StackedShapes
-    before: StackedShapes
-    after: StackedShapes
-    step: float  # s
+from birdmb.wing.stacked import NearShapes, shape_at
 
 
 class UnsteadyRows(NamedTuple):

@@ -9,6 +9,14 @@ from birdmb._typing import Array, FloatArray
 
 
 @kernel
+def cross(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
+    """Write the cross product of vectors (3,): for so small ones making arrays takes longest."""
+    out[0] = a[1] * b[2] - a[2] * b[1]
+    out[1] = a[2] * b[0] - a[0] * b[2]
+    out[2] = a[0] * b[1] - a[1] * b[0]
+
+
+@kernel
 def rotate_about(R: Array, axis: FloatArray, angle: complex) -> Array:
     """R times the rotation by `angle` (rad) about the unit `axis` (Rodrigues' formula)."""
     x, y, z = axis

@@ -18,6 +18,7 @@ from birdmb.wing.chain import joint_chain
 from birdmb.wing.edges import COMPLEX_STEP
 from birdmb.wing.hinges import one_step_wing, orthogonal_wing
 from birdmb.wing.line import PairedEdges
+from birdmb.wing.rotations import cross
 from birdmb.wing.rounded import leg_lengths, points, rounded_along, smooth_step
 
 
@@ -42,13 +43,6 @@ class WingShape(NamedTuple):
 @kernel
 def _length(v: FloatArray) -> float:
     return np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
-
-
-@kernel
-def _cross(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
-    out[0] = a[1] * b[2] - a[2] * b[1]
-    out[1] = a[2] * b[0] - a[0] * b[2]
-    out[2] = a[0] * b[1] - a[1] * b[0]
 
 
 class LeadingArc(NamedTuple):
@@ -231,12 +225,12 @@ def _assemble(
         for i in range(3):
             c[i] /= chord[e]
             along[i] /= step
-        _cross(c, along, up)
+        cross(c, along, up)
         if not published:
             size = _length(up)
             for i in range(3):
                 up[i] /= size
-        _cross(up, c, span[e])
+        cross(up, c, span[e])
     arc = _leading_arc(pairs.leading.real.copy(), edge.real.copy())
     velocity = line[0::2].imag / COMPLEX_STEP
     return WingShape(

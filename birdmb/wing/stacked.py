@@ -32,6 +32,15 @@ class StackedShapes(NamedTuple):
     velocity_per_rate: FloatArray  # (P, M, N, 3) m
 
 
+class NearShapes(NamedTuple):
+    """Shapes of one wing at P instants, and those a short time before and after."""
+
+    now: StackedShapes
+    before: StackedShapes
+    after: StackedShapes
+    step: float  # s
+
+
 def wing_shapes(
     wing: WingArrays,
     angles: FloatArray,
