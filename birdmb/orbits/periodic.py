@@ -169,10 +169,10 @@ def _turned(triangles: FloatArray, turn: FloatArray) -> tuple[FloatArray, FloatA
         norms = np.maximum(np.abs(rows).max(axis=1), np.finfo(float).tiny)
         rows, sizes = rows / norms[:, None], largest + np.log(norms)
     gaps = np.clip(np.diff(sizes), _LOG_WIDEST, -_LOG_WIDEST)
-    product = np.exp(np.append(0.0, np.cumsum(gaps)))[:, None] * rows
+    whole = np.exp(np.append(0.0, np.cumsum(gaps)))[:, None] * rows
     basis, growth = np.eye(len(turn)), np.zeros(len(turn))
     for _ in range(_MOST_SWEEPS):
-        packed, tau, _, _ = lapack.dgeqrf(product @ basis)
+        packed, tau, _, _ = lapack.dgeqrf(whole @ basis)
         growth += np.log(np.maximum(np.abs(np.diag(packed)), np.finfo(float).tiny))
         basis = lapack.dorgqr(packed, tau)[0]
     return basis, growth / _MOST_SWEEPS

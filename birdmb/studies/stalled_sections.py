@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import xarray as xr
 
 from birdmb._typing import FloatArray
 from birdmb.models import FlightCycle
-from birdmb.models.loads_kernel import StackedWing
 
 STALLED = 0.5  # of the chord: below it flow is attached over less
 
@@ -60,19 +60,19 @@ def stall_sentence(sections: tuple[StalledSection, ...]) -> str:
     )
 
 
-def stalled_sections(
-    cycle: FlightCycle, wings: tuple[StackedWing, ...]
-) -> tuple[StalledSection, ...]:
-    """The sections of these wings, the right one first, that are stalled in a limit cycle."""
+def stalled_sections(cycle: FlightCycle, wings: list[xr.Dataset]) -> tuple[StalledSection, ...]:
+    """The sections that are stalled in a limit cycle.
+
+    `wings`, the right one first, are as `Validity.data`, which tells places and side.
+    """
     model, beat = cycle.model, cycle.beat
     wake = model.wake
-    first = len(model.state_names) - wake.count
+    first = len(model.motion_state_names)
     shares = beat.states[:, first + wake.shares].reshape(beat.times.size, wake.sides, -1)
     phases = np.mod(beat.times / cycle.period, 1.0)
     found = []
     for side, wing in enumerate(wings):
-        along = np.cumsum(wing.width, axis=1) - 0.5 * wing.width
-        places = (along / wing.width.sum(axis=1, keepdims=True)).mean(axis=0)
+        places = wing["span_fraction"].values.mean(axis=0)
         for point, element in enumerate(wake.lags.kept.tolist()):
             share = shares[:, min(side, wake.sides - 1), point]
             if share.min() >= STALLED:
@@ -81,7 +81,7 @@ def stalled_sections(
             found.append(
                 StalledSection(
                     point=point + 1,
-                    side=("right", "left")[side] if len(wings) > 1 else "",
+                    side=wing.attrs["side"],
                     span_fraction=float(places[element]),
                     phases=_phases_below(phases, share),
                     largest_separation=float(1.0 - share[worst]),
@@ -98,7 +98,8 @@ def _phases_below(phases: FloatArray, share: FloatArray) -> tuple[tuple[float, f
         return ((0.0, 1.0),)
     step = 1.0 / (share.size - 1)
     beyond = share[:-1] - STALLED
-    crossing = phases[:-1] + step * beyond / np.where(np.diff(share), -np.diff(share), 1.0)
+    fall = -np.diff(share)
+    crossing = phases[:-1] + step * beyond / np.where(fall, fall, 1.0)
     starts = np.mod(crossing[~below[:-1] & below[1:]], 1.0)
     ends = np.mod(crossing[below[:-1] & ~below[1:]], 1.0)
     # Each start with the end that comes next.

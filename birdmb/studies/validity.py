@@ -256,7 +256,7 @@ def assess_validity(
     excesses: list[ValidityViolation | TailViolation | Overlap] = []
     stalled: tuple[StalledSection, ...] = ()
     if model.wake.separates:
-        stalled = stalled_sections(cycle, tuple(wings[: len(each)]))
+        stalled = stalled_sections(cycle, each)
     else:
         excesses += [excess for of_wing in each for excess in _beyond_angle(of_wing, largest_angle)]
     if k > largest_reduced_frequency and not model.wake.count:

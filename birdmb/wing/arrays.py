@@ -134,12 +134,8 @@ def _bone_ends(bird: Bird) -> FloatArray:
 
 def _profiles(bird: Bird) -> FloatArray:
     """Lift slope, zero-lift angle, moment coefficient (1 or S, 3); one row if all are alike."""
-    own = [section.profile or bird.wing.profile for section in bird.sections]
-    rows = [(p.lift_slope, p.zero_lift_angle, p.moment_coefficient) for p in own]
-    if len(set(rows)) < 2:
-        one = own[0] if own else bird.wing.profile
-        rows = [(one.lift_slope, one.zero_lift_angle, one.moment_coefficient)]
-    return np.array(rows)
+    rows = [(p.lift_slope, p.zero_lift_angle, p.moment_coefficient) for p in bird.profiles]
+    return np.array(rows if len(set(rows)) > 1 else rows[:1])
 
 
 def _has_square_tip(bird: Bird) -> bool:
