@@ -1,48 +1,53 @@
-"""The ibis trimmed: flap amplitude for level flight, and with the wing's twist at a given speed.
+"""
+Level flight
+============
 
-Run `python examples/bird_level_flight.py [DIRECTORY]`; the figure goes to the directory.
+The ibis trimmed: the flap amplitude with which it flies level, and the amplitude and twist of the
+wing with which it does so at a given speed. Then how far that flight is from the limits of
+quasi-steady air.
 """
 
-import sys
-from functools import partial
-from pathlib import Path
+import matplotlib.pyplot as plt
 
 import birdmb
-from birdmb import RigidModel
-from birdmb.studies import assess_validity, trim_flight
 
-IBIS = Path(__file__).parent.parent / "topologies" / "ibis.toml"
 AMPLITUDE, TWIST = "shoulder.flap.amplitude_deg", "forearm.roll.offset_deg"
 
+ibis = birdmb.load_bird("ibis")
+cases: dict[str, birdmb.Trim] = {
+    "level": birdmb.trim_flight(ibis, {AMPLITUDE: (30.0, 60.0)}),
+    "climbing 0.5 m/s": birdmb.trim_flight(ibis, {AMPLITUDE: (30.0, 60.0)}, climb_rate=0.5),
+    "level at 16 m/s": birdmb.trim_flight(
+        ibis, {AMPLITUDE: (30.0, 60.0), TWIST: (-10.0, 10.0)}, speed=16.0
+    ),
+}
+print("                     amplitude (deg)  twist (deg)  speed (m/s)  climb  power (W)")
+for name, trim in cases.items():
+    cycle = trim.cycle
+    print(
+        f"{name:20s} {trim.bird.value(AMPLITUDE):15.4f}  {trim.bird.value(TWIST):11.4f}  "
+        f"{cycle.mean_speed:11.4f}  {round(cycle.mean_climb_rate, 6) + 0.0:5.2f}  "
+        f"{cycle.power:9.3f}"
+    )
 
-def main(directory: Path) -> None:
-    ibis = birdmb.load_bird(IBIS)
-    published = ibis.with_values({"wing.discretisation": "published"})
-    slow = {AMPLITUDE: (30.0, 60.0), TWIST: (-10.0, 10.0)}
-    cases = {
-        "level": trim_flight(ibis, {AMPLITUDE: (30.0, 60.0)}),
-        "level, as published": trim_flight(
-            published, {AMPLITUDE: (30.0, 60.0)}, model=partial(RigidModel, steps_per_beat=150)
-        ),
-        "climbing 0.5 m/s": trim_flight(ibis, {AMPLITUDE: (30.0, 60.0)}, climb_rate=0.5),
-        "level at 16 m/s": trim_flight(ibis, slow, speed=16.0),
-    }
-    print("                     amplitude (deg)  twist (deg)  speed (m/s)  climb  power (W)")
-    for name, trim in cases.items():
-        amplitude, twist = trim.bird.value(AMPLITUDE), trim.bird.value(TWIST)
-        cycle = trim.cycle
-        print(
-            f"{name:20s} {amplitude:15.4f}  {twist:11.4f}  {cycle.mean_speed:11.4f}  "
-            f"{round(cycle.mean_climb_rate, 6) + 0.0:5.2f}  {cycle.power:9.3f}"
-        )
-    validity = assess_validity(cases["level"].cycle)
-    k, strouhal = validity.reduced_frequency, validity.strouhal_number
-    print(f"level: reduced frequency {k:.3f}, Strouhal number {strouhal:.3f}")
-    for warning in validity.warnings or ["within the model's validity"]:
-        print(warning)
-    directory.mkdir(parents=True, exist_ok=True)
-    validity.plot().savefig(directory / "level_flight_angle_of_attack.png")
+# %%
+# Where there is no such flight, the error says what was tried.
 
+try:
+    birdmb.trim_flight(ibis, {AMPLITUDE: (30.0, 32.0)}, climb_rate=2.0)
+except birdmb.TrimError as error:
+    print(error)
 
-if __name__ == "__main__":
-    main(Path(sys.argv[1] if len(sys.argv) > 1 else "results"))
+# %%
+# The angles of attack along the wing over a beat, and what a flight has beyond the limits.
+
+validity = birdmb.assess_validity(cases["level"].cycle)
+print(f"reduced frequency {validity.reduced_frequency:.3f}")
+print(f"Strouhal number {validity.strouhal_number:.3f}")
+for warning in validity.warnings or ["within the model's validity"]:
+    print(warning)
+validity.plot()
+
+# %%
+
+plt.show()

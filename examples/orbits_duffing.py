@@ -1,14 +1,14 @@
-"""Forced Duffing oscillator: the resonance curve, followed through both of its folds.
+"""
+A resonance curve through its folds
+===================================
 
-Run `python examples/orbits_duffing.py [DIRECTORY]`; the figure goes to the directory.
+The forced oscillator of Duffing, followed in the frequency through both folds of its resonance.
 """
 
-import sys
-from pathlib import Path
-
+import matplotlib.pyplot as plt
 import numpy as np
 
-from birdmb.orbits import OdeModel, continue_branch
+from birdmb import OdeModel, continue_branch
 
 
 def duffing(frequency: float, damping: float = 0.2, force: float = 0.3) -> OdeModel:
@@ -25,20 +25,21 @@ def duffing(frequency: float, damping: float = 0.2, force: float = 0.3) -> OdeMo
     )
 
 
-def main(directory: Path) -> None:
-    directory.mkdir(parents=True, exist_ok=True)
-    branch = continue_branch(
-        duffing,
-        (0.6, 2.0),
-        parameter_name="frequency",
-        observables={"amplitude": lambda cycle: float(np.ptp(cycle.trajectory().states[:, 0]) / 2)},
-    )
-    print(f"{len(branch.points)} orbits from frequency 0.6 to {branch.parameters[-1]:.6g}")
-    for found in branch.bifurcations:
-        amplitude = found.point.observables["amplitude"]
-        print(f"{found.kind} at frequency {found.parameter:.7f}, amplitude {amplitude:.5f}")
-    branch.plot("amplitude").savefig(directory / "duffing_resonance.png")
+branch = continue_branch(
+    duffing,
+    (0.6, 2.0),
+    parameter_name="frequency",
+    observables={"amplitude": lambda cycle: float(np.ptp(cycle.trajectory().states[:, 0]) / 2)},
+)
+print(f"{len(branch.points)} orbits from frequency 0.6 to {branch.parameters[-1]:.6g}")
+for found in branch.bifurcations:
+    amplitude = found.point.observables["amplitude"]
+    print(f"{found.kind} at frequency {found.parameter:.7f}, amplitude {amplitude:.5f}")
 
+# %%
 
-if __name__ == "__main__":
-    main(Path(sys.argv[1] if len(sys.argv) > 1 else "."))
+branch.plot("amplitude")
+
+# %%
+
+plt.show()

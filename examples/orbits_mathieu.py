@@ -1,14 +1,15 @@
-"""Mathieu's equation: the zero solution as an orbit, and the edge of its instability tongue.
+"""
+The edge of an instability tongue
+=================================
 
-Run `python examples/orbits_mathieu.py [DIRECTORY]`; the figure goes to the directory.
+The equation of Mathieu: its zero solution as an orbit, and where that loses its stability.
 """
 
-import sys
-from pathlib import Path
-
+import matplotlib.pyplot as plt
 import numpy as np
 
-from birdmb.orbits import OdeModel, Steps, floquet, stability_boundary
+from birdmb import OdeModel, floquet, stability_boundary
+from birdmb.orbits import Steps
 
 
 def mathieu(a: float, q: float, damping: float = 0.0) -> OdeModel:
@@ -22,24 +23,28 @@ def mathieu(a: float, q: float, damping: float = 0.0) -> OdeModel:
     )
 
 
-def main(directory: Path) -> None:
-    directory.mkdir(parents=True, exist_ok=True)
-    for a, q in ((1, 0.5), (2, 1), (3, 2), (4, 5)):
-        orbit = floquet(mathieu(a, q), [0.0, 0.0], segments=5)
-        pair = ", ".join(f"{value:.9f}" for value in orbit.multipliers)
-        print(f"a = {a}, q = {q}: {orbit.stability:9s} multipliers {pair}")
+for a, q in ((1, 0.5), (2, 1), (3, 2), (4, 5)):
+    orbit = floquet(mathieu(a, q), [0.0, 0.0], segments=5)
+    pair = ", ".join(f"{value:.9f}" for value in orbit.multipliers)
+    print(f"a = {a}, q = {q}: {orbit.stability:9s} multipliers {pair}")
 
-    boundary = stability_boundary(
-        lambda q, a: mathieu(a, q, damping=0.1),
-        (0.0, 1.0),
-        np.linspace(0.6, 1.4, 9),
-        first_name="q",
-        second_name="a",
-        steps=Steps(first=0.1, longest=0.2),
-    )
-    print(boundary.to_xarray()["first_parameter"].to_series().to_string())
-    boundary.plot().savefig(directory / "mathieu_tongue.png")
+# %%
+# For each a, the q at which the first tongue begins, with some damping.
 
+boundary = stability_boundary(
+    lambda q, a: mathieu(a, q, damping=0.1),
+    (0.0, 1.0),
+    np.linspace(0.6, 1.4, 9),
+    first_name="q",
+    second_name="a",
+    steps=Steps(first=0.1, longest=0.2),
+)
+print(boundary.to_xarray()["first_parameter"].to_series())
 
-if __name__ == "__main__":
-    main(Path(sys.argv[1] if len(sys.argv) > 1 else "."))
+# %%
+
+boundary.plot()
+
+# %%
+
+plt.show()

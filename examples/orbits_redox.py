@@ -1,18 +1,20 @@
-"""Circadian redox oscillator of del Olmo, Kramer & Herzel (2019), Int. J. Mol. Sci. 20, 2368.
+"""
+A stiff oscillator
+==================
 
-Run `python examples/orbits_redox.py [DIRECTORY]`; the figure goes to the directory. Time is in h.
+The circadian redox oscillator of del Olmo, Kramer & Herzel (2019), Int. J. Mol. Sci. 20, 2368, with
+rates from 0.1 to 1000 per h. Time is in h.
 """
 
-import sys
-from pathlib import Path
+import matplotlib.pyplot as plt
 
-from birdmb.orbits import OdeModel, find_limit_cycle
+import birdmb
 
 
-def redox(p: float = 1.0) -> OdeModel:
+def redox(p: float = 1.0) -> birdmb.OdeModel:
     """Peroxides in mitochondria D1 and cytosol D2, sulfiredoxin R, active peroxiredoxin A."""
     a, b, d, e, q = 1000.0, 2.0, 0.2, 0.1, 0.1
-    return OdeModel(
+    return birdmb.OdeModel(
         lambda _t, s: [
             p - a * s[3] * s[0] - d * s[0],
             d * s[0] - e * s[1],
@@ -27,26 +29,27 @@ def redox(p: float = 1.0) -> OdeModel:
             [-a * s[3], 0, b * (1 - s[3]), -b * s[2] - a * s[0]],
         ],
         guess=[0.5, 0.5, 0.6, 0.2],
-        integrator="LSODA",  # stiff: rates from 0.1 to 1000 per h
+        integrator="LSODA",
         rtol=1e-9,
         atol=1e-12,
     )
 
 
-def main(directory: Path) -> None:
-    directory.mkdir(parents=True, exist_ok=True)
-    cycle = find_limit_cycle(
-        redox(), period_guess=23.0, segments=4, damping="levenberg-marquardt", tolerance=1e-7
+cycle: birdmb.LimitCycle = birdmb.find_limit_cycle(
+    redox(), period_guess=23.0, segments=4, damping="levenberg-marquardt", tolerance=1e-7
+)
+print(f"period {cycle.period:.6f} h, {cycle.stability}, {len(cycle.iterations)} iterations")
+for i, value in enumerate(cycle.multipliers):
+    leader = cycle.state_names[cycle.participation[:, i].argmax()]
+    print(
+        f"  multiplier {value.real:.6e} ± {cycle.multiplier_errors[i]:.1e}, "
+        f"halves or doubles in {cycle.doubling_times[i]:.3g} h, mostly {leader}"
     )
-    print(f"period {cycle.period:.6f} h, {cycle.stability}, {len(cycle.iterations)} iterations")
-    for i, value in enumerate(cycle.multipliers):
-        leader = cycle.state_names[cycle.participation[:, i].argmax()]
-        print(
-            f"  multiplier {value.real:.6e} +- {cycle.multiplier_errors[i]:.1e}, "
-            f"halves or doubles in {cycle.doubling_times[i]:.3g} h, mostly {leader}"
-        )
-    cycle.plot().savefig(directory / "redox_cycle.png")
 
+# %%
 
-if __name__ == "__main__":
-    main(Path(sys.argv[1] if len(sys.argv) > 1 else "."))
+cycle.plot()
+
+# %%
+
+plt.show()

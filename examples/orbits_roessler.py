@@ -1,18 +1,14 @@
-"""Roessler's system: an autonomous cycle, its period doubling, and the chaos beyond.
+"""
+Period doubling and chaos
+=========================
 
-Run `python examples/orbits_roessler.py [DIRECTORY] [--coarse]`; the figures go to the directory.
+The system of Rössler: an autonomous cycle, its period doubling, and the chaos beyond.
 """
 
-import argparse
-from pathlib import Path
+import matplotlib.pyplot as plt
 
-from birdmb.orbits import (
-    OdeModel,
-    Steps,
-    continue_branch,
-    find_limit_cycle,
-    largest_lyapunov_exponent,
-)
+from birdmb import OdeModel, continue_branch, find_limit_cycle, largest_lyapunov_exponent
+from birdmb.orbits import Steps
 
 
 def roessler(c: float, a: float = 0.15, b: float = 0.2) -> OdeModel:
@@ -25,32 +21,24 @@ def roessler(c: float, a: float = 0.15, b: float = 0.2) -> OdeModel:
     )
 
 
-def main(directory: Path, *, coarse: bool) -> None:
-    directory.mkdir(parents=True, exist_ok=True)
-    cycle = find_limit_cycle(roessler(3.5), period_guess=5.9, segments=2)
-    print(f"c = 3.5: period {cycle.period:.8f}, {cycle.stability}")
-    for value, error in zip(cycle.multipliers, cycle.multiplier_errors, strict=True):
-        print(f"  multiplier {value.real: .9f} +- {error:.1e}")
-    cycle.plot().savefig(directory / "roessler_cycle.png")
+cycle = find_limit_cycle(roessler(3.5), period_guess=5.9, segments=2)
+print(f"c = 3.5: period {cycle.period:.8f}, {cycle.stability}")
+for value, error in zip(cycle.multipliers, cycle.multiplier_errors, strict=True):
+    print(f"  multiplier {value.real: .9f} ± {error:.1e}")
+cycle.plot()
 
-    branch = continue_branch(
-        roessler,
-        (3.5, 4.2 if coarse else 5.0),
-        period_guess=5.9,
-        parameter_name="c",
-        steps=Steps(longest=0.2),
-    )
-    for found in branch.bifurcations:
-        print(f"{found.kind} at c = {found.parameter:.7f} +- {found.parameter_error:.1e}")
-    branch.plot("y").savefig(directory / "roessler_branch.png")
+# %%
 
-    chaos = largest_lyapunov_exponent(roessler(10.0), [1.0, 1.0, 0.0], 6.0, 20 if coarse else 200)
-    print(f"c = 10: largest Lyapunov exponent {chaos.exponent:.4f} +- {chaos.error:.4f}")
+branch = continue_branch(
+    roessler, (3.5, 4.2), period_guess=5.9, parameter_name="c", steps=Steps(longest=0.2)
+)
+for found in branch.bifurcations:
+    print(f"{found.kind} at c = {found.parameter:.7f} ± {found.parameter_error:.1e}")
+branch.plot("y")
 
+# %%
+# A rough exponent, of twenty intervals; two hundred settle its third digit.
 
-if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("directory", nargs="?", type=Path, default=Path())
-    parser.add_argument("--coarse", action="store_true", help="a rough exponent: quick")
-    options = parser.parse_args()
-    main(options.directory, coarse=options.coarse)
+chaos = largest_lyapunov_exponent(roessler(10.0), [1.0, 1.0, 0.0], 6.0, 20)
+print(f"c = 10: largest Lyapunov exponent {chaos.exponent:.4f} ± {chaos.error:.4f}")
+plt.show()

@@ -1,7 +1,7 @@
-"""The program against measurements: `python examples/validation.py [DIR] [--coarse]`.
+"""The program against measurements: `python examples/studies/validation.py [DIR] [--coarse]`.
 
 Prints the numbers of docs/validation.md and saves its figures in DIR (default results/): of all
-cases, or of the letters that follow, as in `python examples/validation.py results A B`.
+cases, or of the letters that follow, as in `python examples/studies/validation.py results A B`.
 """
 
 import sys

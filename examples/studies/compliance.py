@@ -1,6 +1,6 @@
 """Which joint's compliance helps stability, and what the wings' mass does to it.
 
-`python examples/bird_compliance.py [DIR] [--coarse]` prints the tables of docs/compliance.md and
+`python examples/studies/compliance.py [DIR] [--coarse]` prints the tables of docs/compliance.md and
 keeps them in DIR (default results/) as CSV.
 """
 
@@ -14,7 +14,7 @@ from rich.table import Table
 
 import birdmb
 
-IBIS = Path(__file__).parent.parent / "topologies" / "ibis.toml"
+IBIS = Path(__file__).parents[2] / "topologies" / "ibis.toml"
 ELEMENTS = 12
 STIFFNESSES = {
     "shoulder.pitch": (5, 10, 20, 40, 80),

@@ -1,6 +1,6 @@
 """What feathers on hinges do to stability: softer, slack at zero or pre-twisted against the air.
 
-`python examples/bird_feathers.py [DIR] [--coarse]` prints the table of docs/compliance.md about
+`python examples/studies/feathers.py [DIR] [--coarse]` prints the table of docs/compliance.md about
 them and keeps it in DIR (default results/) as CSV.
 """
 
@@ -14,7 +14,7 @@ from rich.table import Table
 
 import birdmb
 
-TOPOLOGY = Path(__file__).parent.parent / "topologies" / "ibis_hinged_feathers.toml"
+TOPOLOGY = Path(__file__).parents[2] / "topologies" / "ibis_hinged_feathers.toml"
 FEATHERS = ("5", "3")
 ELEMENTS = 8
 STIFFNESSES = (1, 2, 4, 8)
