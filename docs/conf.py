@@ -47,6 +47,11 @@ myst_heading_anchors = 3
 autodoc_member_order = "bysource"
 autodoc_typehints = "description"
 autodoc_typehints_description_target = "documented"
+autodoc_type_aliases = {
+    "npt.ArrayLike": "ArrayLike",
+    "FloatArray": "FloatArray",
+    "ComplexArray": "ComplexArray",
+}
 python_use_unqualified_type_names = True
 napoleon_numpy_docstring = False
 napoleon_use_ivar = True
@@ -54,11 +59,13 @@ napoleon_use_ivar = True
 default_role = "py:obj"
 
 html_theme = "pydata_sphinx_theme"
+highlight_language = "none"
 html_title = f"birdmb {version}"
 html_static_path = ["_static"]
 html_css_files = ["birdmb.css"]
 html_show_sourcelink = False
 html_copy_source = False
+html_sidebars = {"index": [], "tutorial": []}
 html_theme_options = {
     "logo": {"text": "birdmb"},
     "navbar_end": ["theme-switcher"],

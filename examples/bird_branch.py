@@ -21,9 +21,9 @@ bird = birdmb.load_bird("ibis_compliant_shoulder").with_values({"wing.discretisa
 directory = TemporaryDirectory()
 store = Path(directory.name) / "branch.nc"
 branch = birdmb.bird_branch(
-    bird, STIFFNESS, (9.0, 4.0), store=store, steps=Steps(first=0.2, longest=0.3), max_points=22
+    bird, STIFFNESS, (7.0, 4.0), store=store, steps=Steps(first=0.2, longest=0.3), max_points=12
 )
-for point in branch.points[::4]:
+for point in branch.points[::2]:
     print(
         f"{point.parameter:7.3f} N m/rad  {point.observables['mean_speed']:6.2f} m/s  "
         f"|Λ|max {abs(point.multipliers[0]):.4f}  {point.stability}"

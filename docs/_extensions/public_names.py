@@ -9,7 +9,7 @@ import importlib
 import inspect
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, get_overloads
 
 from made_pages import write_if_changed
 
@@ -49,11 +49,22 @@ def subject_of(name: str) -> str:
     return SUBJECTS.get(thing.__module__.split(".")[1], OTHERS)
 
 
+def untyped_signature(function: object) -> str:
+    """The signature of a function with overloads, of which only the types differ."""
+    if not (inspect.isfunction(function) and get_overloads(function)):
+        return ""
+    signature = inspect.signature(function)
+    empty = inspect.Signature.empty
+    plain = [each.replace(annotation=empty) for each in signature.parameters.values()]
+    return str(signature.replace(parameters=plain, return_annotation=empty))
+
+
 def page(name: str) -> str:
     """The page of one name."""
-    is_class = inspect.isclass(getattr(birdmb, name))
+    thing = getattr(birdmb, name)
+    is_class = inspect.isclass(thing)
     lines = [name, "=" * len(name), "", ".. currentmodule:: birdmb", ""]
-    lines += [f".. auto{'class' if is_class else 'function'}:: {name}"]
+    lines += [f".. auto{'class' if is_class else 'function'}:: {name}{untyped_signature(thing)}"]
     lines += ["   :members:", "   :show-inheritance:"] if is_class else []
     lines += ["", f".. minigallery:: birdmb.{name}", "   :add-heading: Examples", ""]
     return "\n".join(lines)
@@ -110,6 +121,13 @@ def escape_moduli(
     lines[:] = "".join(text).split("\n")
 
 
+def name_aliases(app: Sphinx, what: str, name: str, *_: object) -> None:  # noqa: ARG001
+    """Show an alias of a type in a union by its name, where Sphinx shows how it holds it."""
+    annotations = app.env.current_document.autodoc_annotations.get(name, {})
+    for key, text in annotations.items():
+        annotations[key] = re.sub(r"TypeAliasForwardRef\('(\w+)'\)", r"\1", text)
+
+
 def write_pages(app: Sphinx) -> None:
     """Write the index and the pages, and take away those of names that have gone."""
     source = Path(app.srcdir)
@@ -126,4 +144,5 @@ def setup(app: Sphinx) -> dict[str, bool]:
     """Write them before pages are read."""
     app.connect("builder-inited", write_pages, priority=100)
     app.connect("autodoc-process-docstring", escape_moduli)
+    app.connect("autodoc-process-signature", name_aliases, priority=900)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
