@@ -29,3 +29,5 @@ for found in birdmb.find_limit_cycles(model, starts):
         f"{found.mean_speed:.2f} m/s, bank {bank:+.1f}°, turning {turn:+.1f}°/s: "
         f"|Λ|max {abs(found.multipliers[0]):.4f}, {found.stability}"
     )
+
+# sphinx_gallery_thumbnail_path = 'figures/lateral_modes.png'

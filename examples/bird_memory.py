@@ -20,3 +20,5 @@ for name, flight in (("quasi-steady", effect.quasi_steady), ("unsteady", effect.
         f"{name:13} {flight.mean_speed:6.2f} m/s  {flight.mean_climb_rate:+.2f} m/s  "
         f"{flight.corrected_power:5.2f} W  |Λ|max {abs(flight.multipliers[0]):.4f}"
     )
+
+# sphinx_gallery_thumbnail_path = 'figures/memory_flights.png'

@@ -9,7 +9,10 @@ the size of a jackdaw.
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+import matplotlib.pyplot as plt
+
 import birdmb
+from birdmb.figures import plot_wing_phases
 
 HERE = Path(birdmb.__file__).parents[1] / "examples"
 
@@ -32,3 +35,12 @@ with TemporaryDirectory() as directory:
     print("\n".join(path.read_text(encoding="utf-8").splitlines()[:16]))
     again = birdmb.load_bird(path)
 print(again == scaled.bird)
+
+# %%
+# Its wings over a beat.
+
+plot_wing_phases(birdmb.find_limit_cycle(birdmb.RigidModel(again)))
+
+# %%
+
+plt.show()

@@ -28,6 +28,7 @@ def page() -> str:
     heading, _, rest = text.partition("\n\n")
     # Of its list of commands the sentences end in dots; the site has one at the side.
     rest = re.sub(r"\*\*Commands\*\*:\n\n(\* .*\n)+", "", rest)
+    rest = re.sub(r"^(Example: )?(birdmb .*)$", r"\1`\2`", rest, flags=re.M)
     return f"{heading}\n\n{INTRODUCTION}{rest.strip()}\n"
 
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, get_overloads
 
 from made_pages import write_if_changed
+from sphinx.pycode import ModuleAnalyzer
 
 import birdmb
 
@@ -59,13 +60,22 @@ def untyped_signature(function: object) -> str:
     return str(signature.replace(parameters=plain, return_annotation=empty))
 
 
+def members(cls: type) -> list[str]:
+    """Options of a class's directive: its own members, and its bases where readers know them."""
+    known = [getattr(birdmb, name) for name in birdmb.__all__]
+    lines = ["   :members:", "   :exclude-members: model_config"]
+    if any(base in known or base in (ValueError, Exception) for base in cls.__bases__):
+        lines += ["   :show-inheritance:"]
+    return lines
+
+
 def page(name: str) -> str:
     """The page of one name."""
     thing = getattr(birdmb, name)
     is_class = inspect.isclass(thing)
     lines = [name, "=" * len(name), "", ".. currentmodule:: birdmb", ""]
     lines += [f".. auto{'class' if is_class else 'function'}:: {name}{untyped_signature(thing)}"]
-    lines += ["   :members:", "   :show-inheritance:"] if is_class else []
+    lines += members(thing) if is_class else []
     lines += ["", f".. minigallery:: birdmb.{name}", "   :add-heading: Examples", ""]
     return "\n".join(lines)
 
@@ -80,7 +90,7 @@ def room_page(room: str) -> str:
     for name in module.__all__:
         thing = getattr(module, name)
         if inspect.isclass(thing) and thing not in known:
-            lines += [f".. autoclass:: {name}", "   :members:", "   :show-inheritance:", ""]
+            lines += [f".. autoclass:: {name}", *members(thing), ""]
         elif inspect.isfunction(thing) and thing not in known:
             lines += [f".. autofunction:: {name}", ""]
     return "\n".join(lines)
@@ -107,15 +117,17 @@ def index() -> str:
     return "\n".join([*lines, ""])
 
 
-def escape_moduli(
+def plain_prose(
     app: Sphinx,  # noqa: ARG001 - Sphinx calls it so
-    what: str,  # noqa: ARG001
+    what: str,
     name: str,  # noqa: ARG001
     obj: object,  # noqa: ARG001
     options: object,  # noqa: ARG001
     lines: list[str],
 ) -> None:
-    """Keep the bars of moduli in a docstring from being reST's substitutions."""
+    """Keep what a docstring means: bars of moduli are no substitutions, and no word is a type."""
+    if what in {"attribute", "property", "data"}:
+        lines.insert(0, "")  # else napoleon takes what is before a colon for a type
     text = re.split(r"(`[^`]*`)", "\n".join(lines))
     text[::2] = [part.replace("|", r"\|") for part in text[::2]]
     lines[:] = "".join(text).split("\n")
@@ -130,6 +142,11 @@ def name_aliases(app: Sphinx, what: str, name: str, *_: object) -> None:  # noqa
 
 def write_pages(app: Sphinx) -> None:
     """Write the index and the pages, and take away those of names that have gone."""
+    for name in birdmb.__all__:
+        if untyped_signature(getattr(birdmb, name)):
+            analyzer = ModuleAnalyzer.for_module(getattr(birdmb, name).__module__)
+            analyzer.analyze()
+            analyzer.overloads.clear()  # of which Sphinx would show each
     source = Path(app.srcdir)
     pages = {source / "python" / f"{name}.rst": page(name) for name in birdmb.__all__}
     pages |= {source / "python" / f"in_{room}.rst": room_page(room) for room in ROOMS}
@@ -143,6 +160,6 @@ def write_pages(app: Sphinx) -> None:
 def setup(app: Sphinx) -> dict[str, bool]:
     """Write them before pages are read."""
     app.connect("builder-inited", write_pages, priority=100)
-    app.connect("autodoc-process-docstring", escape_moduli)
+    app.connect("autodoc-process-docstring", plain_prose, priority=100)
     app.connect("autodoc-process-signature", name_aliases, priority=900)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
