@@ -59,7 +59,7 @@ napoleon_use_ivar = True
 default_role = "py:obj"
 
 html_theme = "pydata_sphinx_theme"
-smartquotes = False  # two hyphens before an option are two
+smartquotes_action = "qe"  # two hyphens before an option are two
 highlight_language = "none"
 html_title = f"birdmb {version}"
 html_static_path = ["_static"]
