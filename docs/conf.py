@@ -51,6 +51,8 @@ autodoc_type_aliases = {
     "npt.ArrayLike": "ArrayLike",
     "FloatArray": "FloatArray",
     "ComplexArray": "ComplexArray",
+    "IntArray": "IntArray",
+    "BoolArray": "BoolArray",
 }
 python_use_unqualified_type_names = True
 napoleon_numpy_docstring = False
