@@ -80,11 +80,17 @@ html_theme_options = {
 }
 copybutton_exclude = ".linenos, .gp, .go"
 
+# Those with a command line of their own are run by tests/test_examples.py.
+COMMANDS = [
+    path.stem
+    for path in sorted((HERE.parent / "examples").glob("*.py"))
+    if '__name__ == "__main__"' in path.read_text(encoding="utf-8")
+]
 sphinx_gallery_conf = {
     "examples_dirs": "../examples",
     "gallery_dirs": "gallery",
     "filename_pattern": r"\.py$",
-    "ignore_pattern": r"pigeon_points|sweep_dask|/studies/",
+    "ignore_pattern": rf"/studies/|/({'|'.join(COMMANDS)})\.py$",
     "within_subsection_order": "gallery_order.reading_order",
     "image_scrapers": ("gallery_figures.unmanaged_figures", "matplotlib"),
     "ignore_repr_types": r".*(figure|axes|text|container)",
