@@ -90,7 +90,7 @@ sphinx_gallery_conf = {
     "examples_dirs": "../examples",
     "gallery_dirs": "gallery",
     "filename_pattern": r"\.py$",
-    "ignore_pattern": rf"/studies/|/({'|'.join(COMMANDS)})\.py$",
+    "ignore_pattern": rf"/studies/|\b({'|'.join(COMMANDS)})\.py$",
     "within_subsection_order": "gallery_order.reading_order",
     "image_scrapers": ("gallery_figures.unmanaged_figures", "matplotlib"),
     "ignore_repr_types": r".*(figure|axes|text|container)",
