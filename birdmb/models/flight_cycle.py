@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from dataclasses import dataclass
 from functools import cached_property
@@ -305,7 +306,10 @@ class FlightCycle(SteppedCycle):
                 ),
                 **of_wings,
             },
-            coords={"beat_time": ("beat_time", beat.times, {"units": "s"}), "axis": axes}
+            coords={
+                "beat_time": ("beat_time", beat.times, _attrs("s", "time over a beat")),
+                "axis": axes,
+            }
             | {"joint": joints, "load": list(DISSIPATORS)},
             attrs={
                 "bird": self.model.bird.name,
@@ -316,7 +320,19 @@ class FlightCycle(SteppedCycle):
                 "why_no_flight": self.why_no_flight or "",
             },
         )
-        return xr.merge([super().to_xarray(), flight], combine_attrs="no_conflicts")
+        model = self.model
+        whole = xr.merge([super().to_xarray(), flight], combine_attrs="no_conflicts")
+        topology = json.dumps(model.bird.model_dump(mode="json"))
+        return whole.assign(
+            topology=((), topology, {"long_name": "the bird, as JSON"}),
+        ).assign_attrs(
+            title=f"limit cycle of {model.bird.name}, {model.kind} model",
+            model=model.kind,
+            model_settings=json.dumps(model.settings()),
+            motion=model.motion.name,
+            steps_per_beat=model.steps_per_beat,
+            integrator=model.integration_method,
+        )
 
     def plot(self) -> Figure:
         """Draw states, loads and power over a beat, the multipliers and the wing at four phases."""
