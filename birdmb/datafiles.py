@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from birdmb.errors import DataFileError
-from birdmb.provenance import software
 from birdmb.seal import unsealed
 from birdmb.text import on_one_line
 
@@ -20,13 +20,18 @@ _KIND = "birdmb_file"
 _HDF5 = b"\x89HDF\r\n\x1a\n"
 
 
-def family_attributes(kind: Kind, title: str, history: str) -> dict[str, Any]:
-    """Attributes that name the kind of a file and, by the CF conventions, what it holds."""
+def family_attributes(
+    kind: Kind, title: str, history: str, packages: Mapping[str, str]
+) -> dict[str, Any]:
+    """Attributes that name the kind of a file and, by the CF conventions, what it holds.
+
+    `packages` are the versions, by name, of what computed it.
+    """
     return {
         _KIND: kind,
         "Conventions": "CF-1.11",
         "title": title,
-        "source": ", ".join(f"{name} {version}" for name, version in software().items()),
+        "source": ", ".join(f"{name} {version}" for name, version in packages.items()),
         "history": history,
     }
 
@@ -35,6 +40,15 @@ def kind_of(data: xr.Dataset) -> Kind | None:
     """The kind of a dataset of the family; `None` of any other."""
     found = data.attrs.get(_KIND)
     return next((kind for kind in get_args(Kind) if kind == found), None)
+
+
+def is_netcdf(path: Path) -> bool:
+    """Whether a file begins as those of NetCDF-4 do; false where it cannot be read."""
+    try:
+        with path.open("rb") as file:
+            return file.read(len(_HDF5)) == _HDF5
+    except (OSError, ValueError):
+        return False
 
 
 def read_dataset(path: Path) -> xr.Dataset:

@@ -124,7 +124,10 @@ class LimitCycle(FloquetResult):
             .assign_attrs(
                 attributes,
                 **family_attributes(
-                    "limit cycle", "limit cycle and its Floquet multipliers", self._history
+                    "limit cycle",
+                    "limit cycle and its Floquet multipliers",
+                    self._history,
+                    software(),
                 ),
                 format=CYCLE_FORMAT,
                 software=json.dumps(software()),

@@ -17,6 +17,7 @@ from birdmb._typing import ComplexArray, FloatArray
 from birdmb.orbits.iteration import Iteration
 from birdmb.orbits.piecewise import PiecewisePath
 
+# SI units of each state, by the coordinate `state_unit` where a file has it.
 OF_STATE = "as state_unit"
 BY_START = "as state_unit, per that of state_at_start"
 _BOTH = ("state", "multiplier")
@@ -67,11 +68,11 @@ def stored(fields: Mapping[str, Any]) -> tuple[dict[str, Variable], dict[str, An
         field = "multiplier_errors" if name == "multiplier_error" else name
         variables[name] = (dims, fields[field], described(units, about))
     for name, (field, dims, units, about) in _COMPLEX.items():
-        values: ComplexArray = fields[field]
-        variables[f"{name}_real"] = (dims, values.real, described(units, f"{about}, real part"))
+        whole: ComplexArray = fields[field]
+        variables[f"{name}_real"] = (dims, whole.real, described(units, f"{about}, real part"))
         variables[f"{name}_imag"] = (
             dims,
-            values.imag,
+            whole.imag,
             described(units, f"{about}, imaginary part"),
         )
     variables |= _of_iterations(fields["iterations"])
@@ -137,7 +138,7 @@ def _values(data: xr.Dataset, name: str, dims: tuple[str, ...]) -> FloatArray:
 def _of_iterations(iterations: tuple[Iteration, ...]) -> dict[str, Variable]:
     found: dict[str, Variable] = {}
     for name, (units, about, kind) in _ITERATION.items():
-        values = np.array([getattr(each, name) for each in iterations], kind)
+        values: Any = np.array([getattr(each, name) for each in iterations], kind)
         found[f"iteration_{name}"] = (("iteration",), values, described(units, about))
     states = np.array([each.x for each in iterations], float)
     found["iteration_x"] = (

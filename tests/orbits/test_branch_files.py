@@ -70,7 +70,7 @@ def test_every_point_is_saved_before_it_is_told(tmp_path):
 def test_other_programs_read_it(stored, short):
     with xr.open_dataset(stored, engine="h5netcdf") as data:
         assert list(data["parameter"].values) == list(short.parameters)
-        assert data.attrs["format"] == 3
+        assert data.attrs["format"] == 4
         assert birdmb.provenance.software()["numpy"] in data.attrs["software"]
 
 
