@@ -116,7 +116,7 @@ def test_damaged_files_are_refused_in_a_sentence(stored):
         lambda data: data.isel(point=slice(0)),
         lambda data: data.assign_attrs(software="{"),
         lambda data: data.assign_attrs(start_time="soon"),
-        lambda _: xr.Dataset(attrs={"format": 3}),
+        lambda _: xr.Dataset(attrs={"format": 4}),
     ],
 )
 def test_what_is_no_branch_inside_is_refused(short, stored, change):
