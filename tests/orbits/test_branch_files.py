@@ -126,7 +126,7 @@ def test_what_is_no_branch_inside_is_refused(short, stored, change):
 
 
 def test_other_formats_are_refused(short, stored):
-    for form in (2, 4, "old"):
+    for form in (3, 5, "old"):
         data = short.to_xarray().assign_attrs(format=form)
         stored.write_bytes(sealed(bytes(data.to_netcdf(engine="h5netcdf"))))
         with pytest.raises(BranchFileError, match=f"of format {form}; this birdmb reads"):
