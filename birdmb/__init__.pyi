@@ -1,4 +1,4 @@
-from .errors import ArgumentError, BirdmbError, OrbitError, StateError, TopologyError
+from .errors import ArgumentError, BirdmbError, DataFileError, OrbitError, StateError, TopologyError
 from .figures import plot_gust_response
 from .kinematics import JointMotion, KinematicsError, KinematicsFit, fit_kinematics
 from .models import (
@@ -11,6 +11,7 @@ from .models import (
     MultibodyModel,
     RigidModel,
     StepGust,
+    load_cycle,
 )
 from .morphology import bird_from_morphology
 from .orbits import (
@@ -59,6 +60,7 @@ __all__ = [
     "Branch",
     "ConvergenceError",
     "CosineGust",
+    "DataFileError",
     "Flight",
     "FlightCycle",
     "FloquetResult",
@@ -99,6 +101,7 @@ __all__ = [
     "largest_lyapunov_exponent",
     "load_bird",
     "load_branch",
+    "load_cycle",
     "memory_effect",
     "mode_disturbance",
     "moving_wing_loads",

@@ -23,5 +23,9 @@ class StateError(BirdmbError):
     """A flow left the states in which its model means anything (NaN, overflow, out of validity)."""
 
 
+class DataFileError(BirdmbError, ValueError):
+    """A file holds none of the program's results, a damaged one, or one of another format."""
+
+
 class OutputError(BirdmbError):
     """A file cannot be written: the disk is full, say, or the place is not writable."""

@@ -16,6 +16,7 @@ FOUNDATIONS = {
         "_kernels",
         "_starting",
         "_typing",
+        "datafiles",
         "errors",
         "files",
         "provenance",

@@ -62,7 +62,8 @@ def write_figure(path: Path, figure: Figure) -> Path:
 def write_results(cycle: FlightCycle, directory: Path, progress: Progress) -> list[Path]:
     """Write `cycle.nc` and the figures into a directory; return what was written."""
     progress.doing("writing cycle.nc")
-    written = [write_dataset(directory / "cycle.nc", cycle.to_xarray())]
+    cycle.save(directory / "cycle.nc")
+    written = [directory / "cycle.nc"]
     from birdmb import figures  # noqa: PLC0415 - takes a second
 
     drawings: dict[str, Callable[[FlightCycle], Figure]] = {

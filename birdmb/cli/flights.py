@@ -11,7 +11,7 @@ import numpy as np
 import typer
 
 from birdmb.cli.console import messages, output
-from birdmb.cli.files import prepare, write_dataset
+from birdmb.cli.files import prepare
 from birdmb.cli.outcome import NO_CYCLE, ResultUnwrittenError, SearchFailed
 from birdmb.cli.progress import Progress, at_work
 from birdmb.cli.report import table_of
@@ -56,7 +56,8 @@ def run(
         try:
             with at_work(progress, out):
                 for number, cycle in enumerate(cycles, 1):
-                    path = write_dataset(out / f"flight_{number}.nc", cycle.to_xarray())
+                    path = out / f"flight_{number}.nc"
+                    cycle.save(path)
                     objects[number - 1]["files"] = [str(path)]
                     progress.line(f"wrote {path}")
         except OutputError as error:

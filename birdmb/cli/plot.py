@@ -2,33 +2,85 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import typer
 
 from birdmb.cli.drawing import plain_style
 from birdmb.cli.files import prepare, reject_overwriting, write_dataset, write_figure
+from birdmb.cli.outcome import InputError
+from birdmb.datafiles import is_netcdf, kind_of, read_dataset
+from birdmb.models import load_cycle
+from birdmb.orbits import load_branch
 from birdmb.studies.sweeps import Study
 from birdmb.studies.sweeps.verdicts import jump_lines, verdict_lines
 from birdmb.topology import parse_assignment
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
-def run(store: Path, quantities: Sequence[str], at: Sequence[str], out: Path) -> None:
-    """Draw the study in `store` into the directory `out`, and write its dataset there."""
-    study = Study.open(store)
+_Draw = Callable[[str | None], "Figure"]
+
+
+def run(file: Path, quantities: Sequence[str], at: Sequence[str], out: Path) -> None:
+    """Draw the study, branch or cycle in `file` into the directory `out`.
+
+    Of a study's store the dataset is written there, too.
+    """
     fixed = dict(map(parse_assignment, at))
-    data_file = f"{store.stem}.nc"
-    with plain_style():
-        figures = {
-            f"{store.stem}_{name}.png" if name else f"{store.stem}.png": study.plot(name, at=fixed)
-            for name in (quantities or (None,))
-        }
-        prepare(out)
-        reject_overwriting(store, out, [*figures, data_file])
-        for name, figure in figures.items():
-            typer.echo(f"wrote {write_figure(out / name, figure)}")
+    if is_netcdf(file):
+        _write(file, _of_dataset(file, quantities, fixed), quantities, out, [])
+        return
+    study = Study.open(file)
+    data_file = f"{file.stem}.nc"
+    _write(file, lambda name: study.plot(name, at=fixed), quantities, out, [data_file])
     dataset = study.to_xarray(timings=True)
     for line in [*verdict_lines(dataset), *jump_lines(dataset)]:
         typer.echo(line)
     typer.echo(f"wrote {write_dataset(out / data_file, dataset)}")
+
+
+def _write(
+    file: Path, draw: _Draw, quantities: Sequence[str], out: Path, others: Sequence[str]
+) -> None:
+    with plain_style():
+        figures = {
+            f"{file.stem}_{name}.png" if name else f"{file.stem}.png": draw(name)
+            for name in (quantities or (None,))
+        }
+        prepare(out)
+        reject_overwriting(file, out, [*figures, *others])
+        for name, figure in figures.items():
+            typer.echo(f"wrote {write_figure(out / name, figure)}")
+
+
+def _of_dataset(file: Path, quantities: Sequence[str], fixed: Mapping[str, Any]) -> _Draw:
+    """The drawing of a NetCDF file; raises `InputError` where an option is not of its kind."""
+    data = read_dataset(file)
+    kind = kind_of(data)
+    if kind is None:
+        raise InputError(
+            f"{file} holds no limit cycle, branch or sweep of birdmb, or one of version 0.1.0 or "
+            f"older; compute it anew."
+        )
+    if fixed and kind != "sweep":
+        raise InputError(f"--at fixes a parameter of a sweep; {file} holds a {kind}.")
+    if kind == "sweep":
+        from birdmb.figures import plot_sweep  # noqa: PLC0415 - takes a second
+
+        return lambda name: plot_sweep(data, name, fixed)
+    if kind == "branch":
+        branch = load_branch(file)
+        known = [*branch.state_names, "period", *branch.points[0].observables]
+        for name in quantities:
+            if name not in known:
+                raise InputError(
+                    f"--quantity: the branch in {file} has no {name}; it has {', '.join(known)}."
+                )
+        return branch.plot
+    if quantities:
+        raise InputError(f"--quantity is of sweeps and branches; {file} holds a limit cycle.")
+    cycle = load_cycle(file)
+    return lambda _name: cycle.plot()

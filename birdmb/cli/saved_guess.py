@@ -11,6 +11,7 @@ import xarray as xr
 
 from birdmb._typing import FloatArray
 from birdmb.cli.outcome import InputError
+from birdmb.datafiles import kind_of
 from birdmb.orbits import load_branch
 from birdmb.orbits.collocation_search import FEWEST_INSTANTS
 from birdmb.orbits.trigonometric import along_path
@@ -91,7 +92,13 @@ def load_guess(path: Path, point: int | None) -> SavedGuess:
             f"({on_one_line(str(error)) or type(error).__name__}); give the cycle.nc of "
             f"`birdmb cycle --out`, or the file of a branch."
         ) from error
-    if "parameter_name" in data.attrs:
+    kind = kind_of(data)
+    if kind == "sweep":
+        raise InputError(
+            f"--guess: {path} holds a sweep, which keeps no paths of cycles; give the cycle.nc of "
+            f"`birdmb cycle --out`, or the file of a branch."
+        )
+    if kind == "branch":
         return _of_branch(path, point)
     if point is not None:
         raise InputError(f"--point is of a branch; {path} holds none.")

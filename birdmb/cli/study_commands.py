@@ -134,7 +134,12 @@ def sweep(
     )
 )
 def plot(
-    store: Annotated[Path, typer.Argument(help="Store of a study, finished or not.")],
+    file: Annotated[
+        Path,
+        typer.Argument(
+            metavar="FILE", help="Store of a study, finished or not, or NetCDF file of any result."
+        ),
+    ],
     quantity: Annotated[
         list[str] | None,
         typer.Option(
@@ -160,8 +165,8 @@ def plot(
         ),
     ] = Path(),
 ) -> None:
-    """Draw a study: lines over one parameter, maps over two, with the boundary of stability."""
+    """Draw a sweep (lines over one parameter, maps over two), a branch or a limit cycle."""
     with reported():
         from birdmb.cli.plot import run  # noqa: PLC0415 - slow to import
 
-        run(store, quantity or [], at or [], out)
+        run(file, quantity or [], at or [], out)

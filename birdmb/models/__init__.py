@@ -3,6 +3,7 @@
 from typing import TypeAlias
 
 from birdmb.models.beat import Beat
+from birdmb.models.cycle_file import load_cycle
 from birdmb.models.energy import Work
 from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
@@ -33,4 +34,5 @@ __all__ = [
     "TailLoads",
     "WingLoads",
     "Work",
+    "load_cycle",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,12 +14,13 @@ import xarray as xr
 from birdmb._typing import FloatArray
 from birdmb.errors import ArgumentError
 from birdmb.models.beat import Beat
+from birdmb.models.cycle_variables import outlines, variables_of_wing
 from birdmb.models.energy import Work, work_by_sign
 from birdmb.models.flight_modes import FlightMode, flight_modes
-from birdmb.models.loads_kernel import StackedWing
 from birdmb.models.motion import HELD, SPACE_STATES, heading_rate, heading_velocity
 from birdmb.models.stepped_cycle import SteppedCycle
 from birdmb.models.wing_model import STEPS_PER_BEAT
+from birdmb.orbits.cycle_dataset import described
 from birdmb.quantities import DISSIPATORS, described_by
 
 if TYPE_CHECKING:
@@ -279,33 +281,36 @@ class FlightCycle(SteppedCycle):
         beat = self.beat
         axes, joints = ["x", "y", "z"], list(self.model.bird.angle_names)
         stack = beat.loads_along.stack
-        of_wings = _of_wing(stack.right, "", "")
+        of_wings = variables_of_wing(stack.right, "", "")
         if not self.model.is_mirrored:
-            of_wings |= _of_wing(stack.left, "left_", ", of the left wing, mirrored")
+            of_wings |= variables_of_wing(stack.left, "left_", ", of the left wing, mirrored")
         flight = xr.Dataset(
             {
-                "force": (("beat_time", "axis"), beat.force, _attrs("N", "air on the bird")),
-                "moment": (("beat_time", "axis"), beat.moment, _attrs("N m", "air, about G")),
+                "force": (("beat_time", "axis"), beat.force, described("N", "air on the bird")),
+                "moment": (("beat_time", "axis"), beat.moment, described("N m", "air, about G")),
                 "multiplier_integration_error": (
                     "multiplier",
                     self.multiplier_integration_errors,
-                    _attrs("1", "by the integration's steps"),
+                    described("1", "by the integration's steps"),
                 ),
-                "wing_power": ("beat_time", beat.wing_power, _attrs("W", "P_act")),
-                "tail_angle": ("beat_time", beat.tail_angle, _attrs("rad", "of attack")),
+                "wing_power": ("beat_time", beat.wing_power, described("W", "P_act")),
+                "tail_angle": ("beat_time", beat.tail_angle, described("rad", "of attack")),
                 "dissipation": (
                     ("beat_time", "load"),
                     beat.dissipation,
-                    _attrs("W", "power lost to the air"),
+                    described("W", "power lost to the air"),
                 ),
                 "joint_power": (
                     ("beat_time", "joint"),
                     beat.joint_power,
-                    _attrs("W", "joint torque times joint rate, both wings"),
+                    described("W", "joint torque times joint rate, both wings"),
                 ),
                 **of_wings,
             },
-            coords={"beat_time": ("beat_time", beat.times, {"units": "s"}), "axis": axes}
+            coords={
+                "beat_time": ("beat_time", beat.times, described("s", "time over a beat")),
+                "axis": axes,
+            }
             | {"joint": joints, "load": list(DISSIPATORS)},
             attrs={
                 "bird": self.model.bird.name,
@@ -316,38 +321,22 @@ class FlightCycle(SteppedCycle):
                 "why_no_flight": self.why_no_flight or "",
             },
         )
-        return xr.merge([super().to_xarray(), flight], combine_attrs="no_conflicts")
+        model = self.model
+        whole = xr.merge([super().to_xarray(), flight], combine_attrs="no_conflicts")
+        topology = json.dumps(model.bird.model_dump(mode="json"))
+        edges = outlines(model, *self._states_of_beat)
+        text = ((), topology, {"long_name": "the bird, as JSON"})
+        return whole.assign({**edges, "topology": text}).assign_attrs(
+            title=f"limit cycle of {model.bird.name}, {model.kind} model",
+            model=model.kind,
+            model_settings=json.dumps(model.settings()),
+            motion=model.motion.name,
+            steps_per_beat=model.steps_per_beat,
+            integrator=model.integration_method,
+        )
 
     def plot(self) -> Figure:
         """Draw states, loads and power over a beat, the multipliers and the wing at four phases."""
         from birdmb.figures import plot_overview  # noqa: PLC0415 - it draws
 
         return plot_overview(self)
-
-
-def _attrs(units: str, about: str) -> dict[str, str]:
-    return {"units": units, "long_name": about}
-
-
-_OF_ELEMENTS = {
-    "position": ("m", "control points from G"),
-    "force": ("N", "force on each element"),
-    "circulation": ("m2/s", "bound circulation"),
-    "angle_of_attack": ("rad", "geometric angle of attack"),
-    "speed": ("m/s", "wind in the section's plane"),
-    "chord": ("m", "chord"),
-    "width": ("m", "width of the element"),
-}
-
-
-def _of_wing(
-    wing: StackedWing, prefix: str, which: str
-) -> dict[str, tuple[tuple[str, ...], FloatArray, dict[str, str]]]:
-    """Variables of a dataset, by name, of one wing's elements over the beat."""
-    found = {}
-    for name, (units, about) in _OF_ELEMENTS.items():
-        values = getattr(wing, name)
-        dims = ("beat_time", "element", "axis")[: values.ndim]
-        key = prefix + ("element_force" if name == "force" else name)
-        found[key] = (dims, values, _attrs(units, about + which))
-    return found

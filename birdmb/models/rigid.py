@@ -95,6 +95,7 @@ class RigidModel(BirdModel):
     says.
     """
 
+    kind = "rigid"
     limit_cycle_type: type[FlightCycle] = FlightCycle
 
     def __init__(

@@ -53,6 +53,8 @@ from birdmb.wing.chain import joints_turning_the_whole
 class TreeModel(BirdModel):
     """A bird as one kinematic tree of body and wings; see `birdmb.MultibodyModel`."""
 
+    kind = "multibody"
+
     def __init__(
         self,
         bird: Bird,

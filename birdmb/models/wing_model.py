@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from functools import cached_property, partial
-from typing import Any, Literal, Self
+from typing import Any, ClassVar, Literal, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -41,6 +41,7 @@ class BirdModel(ABC):
         gust: velocity of the air at a time, uniform in space; by default the air is still.
     """
 
+    kind: ClassVar[Literal["rigid", "multibody"]]
     state_names: tuple[str, ...]
     state_units: tuple[str, ...]
     motion: Motion = PLANAR
@@ -328,6 +329,11 @@ class BirdModel(ABC):
 
     def _altered(self, **options: Any) -> Self:
         return type(self)(self.bird, **{**self._options(), **options})
+
+    def settings(self) -> dict[str, Any]:
+        """Arguments of the model but for the bird, fit for JSON; `gust`: whether there is one."""
+        options = {**self._options(), "gust": self._gust is not None}
+        return {k: v.tolist() if isinstance(v, np.ndarray) else v for k, v in options.items()}
 
     def _options(self) -> dict[str, Any]:
         return {"steps_per_beat": self._steps_wanted, "gust": self._gust}

@@ -14,9 +14,11 @@ import numpy as np
 import xarray as xr
 
 from birdmb._typing import FloatArray
+from birdmb.datafiles import family_attributes
 from birdmb.files import netcdf_bytes, write_whole
 from birdmb.orbits.branch_dataset import arrays_of, bifurcations_of, points_of
 from birdmb.orbits.branch_points import Bifurcation, BranchPoint
+from birdmb.orbits.cycle_dataset import OF_STATE, described
 from birdmb.orbits.errors import BranchFileError, BranchStopped
 from birdmb.provenance import software
 from birdmb.seal import sealed, unsealed
@@ -25,7 +27,7 @@ from birdmb.text import on_one_line
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_FORMAT = 3
+_FORMAT = 4
 _SETTING = "setting_"
 
 
@@ -70,8 +72,18 @@ class Branch:
         another (`segments` says how many), `states` and `tangent` end in NaN.
         """
         data = arrays_of(self.points, self.bifurcations)
-        data["state_scale"] = xr.DataArray(self.state_scale, dims="state")
+        data["state_scale"] = xr.DataArray(
+            self.state_scale,
+            dims="state",
+            attrs=described(OF_STATE, "typical sizes of the states"),
+        )
         attrs: dict[str, str | float] = {
+            **family_attributes(
+                "branch",
+                f"branch of limit cycles in {self.parameter_name}",
+                f"continuation, {len(self.points)} orbits",
+                self.software,
+            ),
             "format": _FORMAT,
             "software": json.dumps(dict(self.software)),
             "parameter_name": self.parameter_name,

@@ -16,7 +16,32 @@ import xarray as xr
 from birdmb._typing import FloatArray
 from birdmb.orbits.branch_points import Bifurcation, BifurcationKind, BranchPoint
 from birdmb.orbits.cycle import OrbitMethod
+from birdmb.orbits.cycle_dataset import OF_STATE, described
 from birdmb.orbits.multipliers import Stability
+from birdmb.quantities import BY_NAME
+
+# Units, none of texts, and descriptions.
+_DESCRIBED = {
+    "parameter": ("as parameter_name", "parameter"),
+    "parameter_error": ("as parameter_name", "error of the parameter of a bifurcation"),
+    "period": ("s", "period"),
+    "segments": ("1", "number of states along the orbit"),
+    "states": (OF_STATE, "states along the orbit"),
+    "residual": ("1", "closure error"),
+    "multiplier_real": ("1", "Floquet multiplier, real part"),
+    "multiplier_imag": ("1", "Floquet multiplier, imaginary part"),
+    "multiplier_error": ("1", "bound of the error of the Floquet multiplier"),
+    "trivial_index": ("1", "position of the trivial multiplier"),
+    "stability": ("", "verdict"),
+    "tangent": ("1", "direction of the branch, in state scales and parameter ranges"),
+    "next_step": ("1", "length of the next step along the branch"),
+    "method": ("", "method that found the orbit"),
+    "state_error": ("1", "error of the states, in state scales"),
+    "kind": ("", "kind of the bifurcation"),
+    "after": ("1", "position of the point before the bifurcation"),
+    "crossing": ("1", "whether the multiplier crosses the unit circle"),
+    "outside": ("1", "multipliers outside the unit circle, before and after"),
+}
 
 
 def arrays_of(
@@ -45,7 +70,18 @@ def arrays_of(
         data |= {f"bifurcation_{name}": values for name, values in located.items()}
         data["bifurcation_crossing"] = array([b.crossing for b in bifurcations], "multiplier")
         data["bifurcation_outside"] = array([b.outside for b in bifurcations], "side")
+    for key, values in data.items():
+        values.attrs = _attributes(key.removeprefix("bifurcation_"))
     return data
+
+
+def _attributes(name: str) -> dict[str, str]:
+    observed = name.removeprefix("observable_")
+    if observed != name:
+        known = BY_NAME.get(observed)
+        return described(known.unit if known else "unknown", known.label if known else observed)
+    units, about = _DESCRIBED[name]
+    return described(units, about) if units else {"long_name": about}
 
 
 def points_of(data: xr.Dataset) -> tuple[BranchPoint, ...]:

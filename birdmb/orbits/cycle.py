@@ -2,20 +2,29 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from os import PathLike
 from typing import Literal, Self
 
 import numpy as np
 import numpy.typing as npt
 import xarray as xr
 
+from birdmb.datafiles import family_attributes
+from birdmb.files import netcdf_bytes, write_whole
+from birdmb.orbits.cycle_dataset import stored
 from birdmb.orbits.iteration import Iteration
 from birdmb.orbits.ode import Trajectory
 from birdmb.orbits.piecewise import PiecewisePath
 from birdmb.orbits.problem import HasLimitCycleType, Model
 from birdmb.orbits.result import FloquetResult
 from birdmb.orbits.trigonometric import interpolated
+from birdmb.provenance import software
+from birdmb.seal import sealed
 
+CYCLE_FORMAT = 1
 OrbitMethod = Literal["collocation", "shooting"]
 
 
@@ -36,6 +45,7 @@ class LimitCycle(FloquetResult):
             what half as many nodes again make of it, or a mesh with all intervals halved; 0 for
             shooting.
         pieces: the orbit's polynomials on the intervals of a mesh; `None` where it has none.
+        search: settings of the search that were asked for, by name.
     """
 
     iterations: tuple[Iteration, ...]
@@ -43,6 +53,7 @@ class LimitCycle(FloquetResult):
     nodes: int | None = None
     state_error: float = 0.0
     pieces: PiecewisePath | None = None
+    search: Mapping[str, str | float | None] = field(default_factory=dict)
 
     @classmethod
     def of(
@@ -99,18 +110,45 @@ class LimitCycle(FloquetResult):
         return Trajectory(at, interpolated(self.points, phases))
 
     def to_xarray(self) -> xr.Dataset:
-        """Return the orbit as `FloquetResult.to_xarray` does, with the method that found it."""
+        """Return the orbit as `FloquetResult.to_xarray` does, with all that the search found.
+
+        Further dimensions: segment (or node), iteration, and those of a mesh.
+        """
+        variables, attributes = stored(
+            {each.name: getattr(self, each.name) for each in fields(self)}
+        )
         return (
             super()
             .to_xarray()
+            .assign(variables)
             .assign_attrs(
+                attributes,
+                **family_attributes(
+                    "limit cycle",
+                    "limit cycle and its Floquet multipliers",
+                    self._history,
+                    software(),
+                ),
+                format=CYCLE_FORMAT,
+                software=json.dumps(software()),
                 method=self.method,
-                method_reason=self.method_reason,
-                nodes=self.nodes or 0,
                 intervals=self.intervals or 0,
-                state_error=self.state_error,
             )
         )
+
+    @property
+    def _history(self) -> str:
+        return f"found by {self.method} in {len(self.iterations) - 1} iterations"
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the cycle to a NetCDF file; that of a bird `birdmb.load_cycle` reads.
+
+        A file of that name is replaced only once the new one is whole on the disk.
+
+        Raises:
+            OutputError: the file cannot be written.
+        """
+        write_whole(path, sealed(netcdf_bytes(self.to_xarray())))
 
 
 def cycle_type(model: Model) -> type[LimitCycle]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -11,6 +11,7 @@ import numpy.typing as npt
 import xarray as xr
 
 from birdmb._typing import ComplexArray, FloatArray
+from birdmb.orbits.cycle_dataset import BY_START, OF_STATE, described
 from birdmb.orbits.multipliers import Stability, verdict
 from birdmb.orbits.ode import Trajectory
 from birdmb.orbits.periodicity import turns
@@ -73,6 +74,13 @@ class FloquetResult:
     trivial_index: int | None
     jacobian_method: JacobianMethod
     jacobian_gap: float
+
+    def __post_init__(self) -> None:
+        """Lay all arrays out alike, so that sums over those of a file have the same last bits."""
+        for each in fields(self):
+            value = getattr(self, each.name)
+            if isinstance(value, np.ndarray):
+                object.__setattr__(self, each.name, np.ascontiguousarray(value))
 
     def __str__(self) -> str:
         """Return the verdict, the period, the multipliers with their errors, and the remarks."""
@@ -233,25 +241,65 @@ class FloquetResult:
         both = ("state", "multiplier")
         return xr.Dataset(
             {
-                "x0": ("state", self.x0),
-                "trajectory": (("time", "state"), path.states),
-                "monodromy": (("state", "state_at_start"), self.monodromy),
-                "multiplier_real": ("multiplier", self.multipliers.real),
-                "multiplier_imag": ("multiplier", self.multipliers.imag),
-                "multiplier_error": ("multiplier", self.multiplier_errors),
-                "exponent_real": ("multiplier", self.exponents.real, {"units": "1/s"}),
-                "exponent_imag": ("multiplier", self.exponents.imag, {"units": "1/s"}),
-                "doubling_time": ("multiplier", self.doubling_times, {"units": "s"}),
-                "mode_real": (both, self.modes.real),
-                "mode_imag": (both, self.modes.imag),
-                "participation": (both, self.participation),
+                "x0": ("state", self.x0, described(OF_STATE, "state at the start time")),
+                "trajectory": (
+                    ("time", "state"),
+                    path.states,
+                    described(OF_STATE, "states over the period"),
+                ),
+                "monodromy": (
+                    ("state", "state_at_start"),
+                    self.monodromy,
+                    described(BY_START, "state after a period by that before"),
+                ),
+                "multiplier_real": (
+                    "multiplier",
+                    self.multipliers.real,
+                    described("1", "real part"),
+                ),
+                "multiplier_imag": (
+                    "multiplier",
+                    self.multipliers.imag,
+                    described("1", "imaginary part"),
+                ),
+                "multiplier_error": (
+                    "multiplier",
+                    self.multiplier_errors,
+                    described("1", "error bound"),
+                ),
+                "exponent_real": (
+                    "multiplier",
+                    self.exponents.real,
+                    described("s-1", "Floquet exponent, real part"),
+                ),
+                "exponent_imag": (
+                    "multiplier",
+                    self.exponents.imag,
+                    described("s-1", "Floquet exponent, imaginary part"),
+                ),
+                "doubling_time": (
+                    "multiplier",
+                    self.doubling_times,
+                    described("s", "time in which the mode doubles or halves"),
+                ),
+                "mode_real": (both, self.modes.real, described(OF_STATE, "mode, real part")),
+                "mode_imag": (both, self.modes.imag, described(OF_STATE, "mode, imaginary part")),
+                "participation": (
+                    both,
+                    self.participation,
+                    described("1", "share of each state in each mode"),
+                ),
             },
             coords={
                 "state": list(self.state_names),
                 "state_at_start": list(self.state_names),
-                "state_unit": ("state", list(units)),
-                "multiplier": np.arange(len(self.multipliers)),
-                "time": ("time", path.times, {"units": "s"}),
+                "state_unit": ("state", list(units), {"long_name": "units of the states"}),
+                "multiplier": (
+                    "multiplier",
+                    np.arange(len(self.multipliers)),
+                    described("1", "number of the multiplier, largest modulus first"),
+                ),
+                "time": ("time", path.times, described("s", "time")),
             },
             attrs={
                 "period": self.period,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import Executor
+from dataclasses import replace
 from typing import Literal, TypedDict, TypeVar, Unpack, get_args, overload
 
 import numpy as np
@@ -164,10 +165,21 @@ def find_limit_cycle(
         "max_iterations": max_iterations,
         "callback": callback,
     }
+    asked = {
+        "method": method,
+        "start_time": start_time,
+        "damping": damping,
+        "tolerance": tolerance,
+        "max_iterations": max_iterations,
+        "nodes": nodes,
+        "accuracy": accuracy,
+        "segments": segments,
+        "jacobian": jacobian,
+    }
     failed: OrbitError | StateError | None = None
     if method != "shooting" and not reason:
         try:
-            return search_by_collocation(
+            found = search_by_collocation(
                 model,
                 guess,
                 period_guess=period_guess,
@@ -176,6 +188,7 @@ def find_limit_cycle(
                 most_nodes=most_nodes(model, method),
                 **common,
             )
+            return replace(found, search=asked)
         except ArgumentError:
             raise
         except (OrbitError, StateError) as error:
@@ -189,9 +202,10 @@ def find_limit_cycle(
     def on_mesh(error: OrbitError | StateError) -> LimitCycle:
         """The orbit on a mesh; raises `error` where there is none either."""
         try:
-            return search_on_mesh(
+            found = search_on_mesh(
                 model, guess, error, period_guess=period_guess, accuracy=accuracy, **common
             )
+            return replace(found, search=asked)
         except (OrbitError, StateError) as failure:
             raise error from failure
 
@@ -202,7 +216,7 @@ def find_limit_cycle(
         period = failed.history[-1].period
     count = 1 if segments is None else segments
     try:
-        return search_by_shooting(
+        found = search_by_shooting(
             model,
             _points(start, count),
             period_guess=period,
@@ -213,6 +227,7 @@ def find_limit_cycle(
             reason=reason or 'method="shooting" was asked for',
             **common,
         )
+        return replace(found, search=asked)
     except (OrbitError, StateError) as error:
         if not isinstance(failed, NotSmoothError):
             raise

@@ -70,7 +70,7 @@ def test_every_point_is_saved_before_it_is_told(tmp_path):
 def test_other_programs_read_it(stored, short):
     with xr.open_dataset(stored, engine="h5netcdf") as data:
         assert list(data["parameter"].values) == list(short.parameters)
-        assert data.attrs["format"] == 3
+        assert data.attrs["format"] == 4
         assert birdmb.provenance.software()["numpy"] in data.attrs["software"]
 
 
@@ -116,7 +116,7 @@ def test_damaged_files_are_refused_in_a_sentence(stored):
         lambda data: data.isel(point=slice(0)),
         lambda data: data.assign_attrs(software="{"),
         lambda data: data.assign_attrs(start_time="soon"),
-        lambda _: xr.Dataset(attrs={"format": 3}),
+        lambda _: xr.Dataset(attrs={"format": 4}),
     ],
 )
 def test_what_is_no_branch_inside_is_refused(short, stored, change):
@@ -126,7 +126,7 @@ def test_what_is_no_branch_inside_is_refused(short, stored, change):
 
 
 def test_other_formats_are_refused(short, stored):
-    for form in (2, 4, "old"):
+    for form in (3, 5, "old"):
         data = short.to_xarray().assign_attrs(format=form)
         stored.write_bytes(sealed(bytes(data.to_netcdf(engine="h5netcdf"))))
         with pytest.raises(BranchFileError, match=f"of format {form}; this birdmb reads"):

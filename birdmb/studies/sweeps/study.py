@@ -13,8 +13,9 @@ import numpy as np
 import numpy.typing as npt
 import xarray as xr
 
+from birdmb.datafiles import family_attributes
 from birdmb.quantities import BY_NAME, Quantity
-from birdmb.studies.sweeps.contents import Contents
+from birdmb.studies.sweeps.contents import FORMAT, Contents
 from birdmb.studies.sweeps.errors import SweepError
 from birdmb.studies.sweeps.grid import Grid, Place, Value
 from birdmb.studies.sweeps.jumps import sheet_jumps
@@ -34,6 +35,15 @@ _NUMBERS = {each.name: (each.unit, _long_name(each)) for each in BY_NAME.values(
     "iterations": ("1", "steps of the search"),
     "nodes": ("1", "nodes of a collocated orbit"),
     "steps_per_beat": ("1", "integration steps per wingbeat of a shot orbit"),
+}
+_FURTHER = {
+    "multiplier_real": ("1", "Floquet multiplier, real part"),
+    "multiplier_imag": ("1", "Floquet multiplier, imaginary part"),
+    "multiplier_error": ("1", "error of the Floquet multiplier that the verdict counts"),
+    "x0": ("SI, rad", "state at the start time"),
+    "monodromy": ("SI, rad", "state after a period by that before"),
+    "seconds": ("s", "time that the point took"),
+    "sheet_jump": ("1", "whether the step to the next value does not explain the change"),
 }
 _BY_MULTIPLIER = ("multiplier_real", "multiplier_imag", "multiplier_error")
 _OTHERS = (
@@ -130,6 +140,10 @@ class Study:
         bounds = (self.identity["trim"] or {}).get("parameters", {})
         data["sheet_jump"] = sheet_jumps(Grid(self.parameters), found, bounds)
         data |= _derived(data)
+        for name, values in data.items():
+            if values.dtype.kind in "fib":
+                units, about = _FURTHER.get(name, ("1", name))
+                values.attrs = {"units": units, "long_name": about} | values.attrs
         coordinates: dict[str, Any] = {
             name: (name, list(values), {"units": "deg"} if name.endswith("_deg") else {})
             for name, values in self.parameters.items()
@@ -137,8 +151,16 @@ class Study:
         coordinates |= {"state": states, "state_at_start": states, "along": [*self.parameters]}
         return xr.Dataset(
             data,
-            coords=coordinates | {"multiplier": np.arange(len(states))},
+            coords=coordinates
+            | {"multiplier": ("multiplier", np.arange(len(states)), {"units": "1"})},
             attrs={
+                **family_attributes(
+                    "sweep",
+                    f"sweep of {self.bird.name} over {', '.join(self.parameters)}",
+                    f"{len(self.outcomes)} of {self.total} points",
+                    {"birdmb": self.identity["birdmb"]},
+                ),
+                "format": FORMAT,
                 "bird": self.bird.name,
                 "fingerprint": self.identity["fingerprint"],
                 "model": self.identity["model"],
