@@ -16,13 +16,14 @@ FOUNDATIONS = {
         "_kernels",
         "_starting",
         "_typing",
+        "arguments",
         "errors",
         "files",
         "provenance",
         "quantities",
         "seal",
     ),
-    *("text", "threads"),
+    *("summary", "text", "threads"),
 }
 ROOMS = (
     *("topology", "morphology", "wing", "aerodynamics", "kinematics", "orbits", "models"),

@@ -27,6 +27,7 @@ from birdmb.aerodynamics.prescribed_lags import (
     lag_table,
     no_lags,
 )
+from birdmb.arguments import checked
 from birdmb.errors import StateError
 from birdmb.models.air_kernel import Shapes
 from birdmb.models.failures import (
@@ -97,6 +98,7 @@ class RigidModel(BirdModel):
 
     limit_cycle_type: type[FlightCycle] = FlightCycle
 
+    @checked
     def __init__(
         self,
         bird: Bird,

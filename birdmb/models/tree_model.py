@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from birdmb._typing import BoolArray, FloatArray
+from birdmb.arguments import checked
 from birdmb.errors import StateError
 from birdmb.models.air_kernel import Motion, Shapes
 from birdmb.models.compiled_calls import COMPILED, calls_compiled_code
@@ -53,6 +54,7 @@ from birdmb.wing.chain import joints_turning_the_whole
 class TreeModel(BirdModel):
     """A bird as one kinematic tree of body and wings; see `birdmb.MultibodyModel`."""
 
+    @checked
     def __init__(
         self,
         bird: Bird,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from typing import Literal, Self
 
@@ -15,11 +16,12 @@ from birdmb.orbits.piecewise import PiecewisePath
 from birdmb.orbits.problem import HasLimitCycleType, Model
 from birdmb.orbits.result import FloquetResult
 from birdmb.orbits.trigonometric import interpolated
+from birdmb.summary import Fact
 
 OrbitMethod = Literal["collocation", "shooting"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class LimitCycle(FloquetResult):
     """A periodic orbit found by `find_limit_cycle`, with its Floquet multipliers.
 
@@ -43,6 +45,11 @@ class LimitCycle(FloquetResult):
     nodes: int | None = None
     state_error: float = 0.0
     pieces: PiecewisePath | None = None
+
+    def _summary_of_search(self) -> Iterator[Fact]:
+        yield Fact("method", self.method)
+        if self.nodes is not None:
+            yield Fact("nodes", str(self.nodes))
 
     @classmethod
     def of(

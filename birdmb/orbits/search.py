@@ -9,6 +9,7 @@ from typing import Literal, TypedDict, TypeVar, Unpack, get_args, overload
 import numpy as np
 import numpy.typing as npt
 
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError, OrbitError, StateError
 from birdmb.orbits.collocation_search import (
     FEWEST_INSTANTS,
@@ -72,6 +73,7 @@ def find_limit_cycle(
 ) -> LimitCycle: ...
 
 
+@checked
 def find_limit_cycle(
     model: Model,
     guess: npt.ArrayLike | FloquetResult | None = None,

@@ -13,6 +13,7 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
 from birdmb._typing import FloatArray, IntArray
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError, StateError
 from birdmb.models import FlightCycle, Gust
 from birdmb.models.gusts import velocity_of
@@ -31,6 +32,7 @@ _MOST_FLIGHTS = 30
 _SETTLED = 1e-8  # of the state scale
 
 
+@checked
 def gust_response(
     cycle: FlightCycle,
     gust: Gust,

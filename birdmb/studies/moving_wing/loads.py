@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal, get_args
 
@@ -9,18 +10,20 @@ import numpy as np
 import numpy.typing as npt
 
 from birdmb._typing import FloatArray
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError
 from birdmb.studies.moving_wing.memory import lags_of_start, periodic_lags, settled_lags
 from birdmb.studies.moving_wing.motion import WingMotion
 from birdmb.studies.moving_wing.moving import InstantLoads, MovingWing
 from birdmb.studies.moving_wing.plane_wing import PlaneWing
+from birdmb.summary import Fact, Summarised
 
 Wake = Literal["quasi-steady", "unsteady"]
 _FEWEST_INSTANTS, _FEWEST_ELEMENTS = 3, 4
 
 
-@dataclass(frozen=True)
-class MovingWingLoads:
+@dataclass(frozen=True, repr=False)
+class MovingWingLoads(Summarised):
     """Loads of a moving wing at K instants, of both halves unless another thing is said.
 
     Attributes:
@@ -64,6 +67,15 @@ class MovingWingLoads:
     angle_of_attack: FloatArray
     sectional_lift: FloatArray
     lags: FloatArray
+
+    def _summary(self) -> Iterator[Fact]:
+        yield Fact("wake", self.wake)
+        yield Fact("speed", f"{self.speed:.6g}", "m/s")
+        yield Fact("mean lift coefficient", f"{self.mean_lift_coefficient:.4g}")
+        yield Fact("mean thrust coefficient", f"{self.mean_thrust_coefficient:.4g}")
+        yield Fact("mean power coefficient", f"{self.mean_power_coefficient:.4g}")
+        yield Fact("instants", str(len(self.times)))
+        yield Fact("elements", str(len(self.positions)))
 
     @property
     def dynamic_area(self) -> float:
@@ -113,6 +125,7 @@ class MovingWingLoads:
         return np.asarray(share * np.tensordot(turning, values, axes=(0, 0)) / len(self.times))
 
 
+@checked
 def moving_wing_loads(
     wing: PlaneWing,
     motion: WingMotion,
