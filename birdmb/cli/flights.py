@@ -14,9 +14,9 @@ from birdmb.cli.console import messages, output
 from birdmb.cli.files import prepare, write_dataset
 from birdmb.cli.outcome import NO_CYCLE, ResultUnwrittenError, SearchFailed
 from birdmb.cli.progress import Progress, at_work
-from birdmb.cli.report import table_of
 from birdmb.cli.results import result_object
 from birdmb.cli.searching import TRIM, announce, deflations_for, model_of, number_of, told
+from birdmb.cli.tables import table_of
 from birdmb.errors import OutputError
 from birdmb.orbits import find_limit_cycles
 from birdmb.studies import assess_validity
