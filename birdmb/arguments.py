@@ -121,7 +121,9 @@ def _problem(name: str, hint: Any, value: Any) -> str | None:
                 return problem
     kinds = list(dict.fromkeys(filter(None, map(_kind, options))))
     made = next((text for kind in kinds if (text := _made_by(name, kind, value))), "")
-    return f"{name} must be {' or '.join(kinds)}, not {_shown(value)}{made and f'; {made}'}"
+    choices = any(get_origin(option) is Literal for option in options)
+    given = f'"{_shortened(value)}"' if choices and isinstance(value, str) else _shown(value)
+    return f"{name} must be {' or '.join(kinds)}, not {given}{made and f'; {made}'}"
 
 
 @functools.cache
@@ -255,6 +257,11 @@ _RULES = (
     _Rule(lambda o: o is Any, str, lambda *_: True),
     _Rule(lambda o: o in _KINDS, lambda h: _KINDS[h], _is_of_kind),
     _Rule(lambda o: o is np.ndarray, lambda _: _OF_ARRAYS, lambda _, v: _is_numeric(v)),
+    _Rule(
+        lambda o: getattr(o, "_is_protocol", False) and "__call__" in vars(o),
+        lambda _: "a function",
+        lambda _, v: callable(v),
+    ),
     _Rule(lambda o: o is _FUNCTION, lambda _: "a function", lambda _, v: callable(v)),
     _Rule(lambda o: o is PathLike, lambda _: "a path", lambda _, v: isinstance(v, PathLike)),
     _Rule(_is_container_type, _container_text, _fits_container),

@@ -86,8 +86,7 @@ def test_every_first_argument_is_refused_where_nothing_fits():
         ),
         (
             lambda at: birdmb.find_limit_cycle(at.model, method="foo"),
-            'find_limit_cycle: method must be "auto", "collocation" or "shooting", not the text '
-            '"foo".',
+            'find_limit_cycle: method must be "auto", "collocation" or "shooting", not "foo".',
         ),
         (
             lambda at: birdmb.find_limit_cycle(at.model, tolerance=math.nan),

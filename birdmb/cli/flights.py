@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from birdmb.models import FlightCycle
-    from birdmb.models.motion import MotionName
+    from birdmb.models.motion import FlightMotionName
     from birdmb.studies import Validity
     from birdmb.topology import Bird
 
@@ -33,7 +33,7 @@ _STYLES = {"stable": "green", "unstable": "red", "undecided": "yellow"}
 
 
 def run(
-    bird: Bird, model_name: str, motion: MotionName, *, out: Path | None, as_json: bool
+    bird: Bird, model_name: str, motion: FlightMotionName, *, out: Path | None, as_json: bool
 ) -> None:
     """Find the flights of a bird, list them on standard output and write them into `out`."""
     if out is not None:
@@ -70,7 +70,7 @@ def run(
 
 
 def _found(
-    bird: Bird, model_name: str, motion: MotionName, progress: Progress
+    bird: Bird, model_name: str, motion: FlightMotionName, progress: Progress
 ) -> list[FlightCycle]:
     model = model_of(bird, model_name, motion, None)
     announce(model, model_name, progress)

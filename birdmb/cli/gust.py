@@ -29,7 +29,7 @@ from birdmb.studies.gust import gust_response
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
-    from birdmb.models.motion import MotionName
+    from birdmb.models.motion import FlightMotionName
     from birdmb.studies.body_gust import GustAxes
     from birdmb.topology import Bird
 
@@ -81,7 +81,7 @@ class GustOptions:
 def run(
     bird: Bird,
     model_name: str,
-    motion: MotionName,
+    motion: FlightMotionName,
     options: GustOptions,
     *,
     out: Path | None,

@@ -104,8 +104,6 @@ def largest_lyapunov_exponent(
         )
     able = isinstance(model, VariationalModel)
     method = method or ("variational" if able else "neighbours")
-    if method not in {"variational", "neighbours"}:
-        raise ArgumentError(f'method must be "variational" or "neighbours", not "{method}".')
     if method == "variational" and not able:
         raise ArgumentError('method="variational" needs a model with flow_jacobian.')
     scale, points = lay_out(model, x0, start_time, interval, 1)
