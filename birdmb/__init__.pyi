@@ -52,6 +52,8 @@ from .studies.tail import tail_study
 from .topology import Bird, load_bird
 from .topology.shipped import bird_names
 
+__version__: str
+
 __all__ = [
     "ArgumentError",
     "Beat",

@@ -17,13 +17,14 @@ FOUNDATIONS = {
         "_starting",
         "_typing",
         "datafiles",
+        "arguments",
         "errors",
         "files",
         "provenance",
         "quantities",
         "seal",
     ),
-    *("text", "threads"),
+    *("summary", "text", "threads"),
 }
 ROOMS = (
     *("topology", "morphology", "wing", "aerodynamics", "kinematics", "orbits", "models"),

@@ -17,7 +17,9 @@ def main() -> None:
 
     with ending_the_process():
         from birdmb.cli.app import app  # noqa: PLC0415 - it imports typer
+        from birdmb.cli.console import fit_help  # noqa: PLC0415 - it imports typer
         from birdmb.cli.streams import standard_streams  # noqa: PLC0415 - so does this
 
         with standard_streams():
+            fit_help(app)
             app()

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from birdmb.cli.bird_commands import commands as bird_commands
+from birdmb.cli.completion import dotted_names
 from birdmb.cli.drawing import ignore_settings
 from birdmb.cli.flight_commands import commands as flight_commands
 from birdmb.cli.options import (
@@ -48,7 +49,6 @@ app = typer.Typer(
         "birdmb cycle topologies/ibis.toml --set body.mass=1.3 --json"
     ),
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode="markdown",
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -176,19 +176,19 @@ def cycle(
     epilog="Exit status: 0 a possible bird, warnings or not; 2 not a possible bird.\n\n"
     "Example: birdmb check topologies/ibis.toml --set segments.hand.mass=0.02"
 )
-def check(topology: Topology, assignments: Assignments = None) -> None:
+def check(topology: Topology, assignments: Assignments = None, json: Json = False) -> None:
     """Validate a topology file and say what bird it describes.
 
     Masses, span, joints with their drivers, springs and dampers, discretisation, and warnings.
     """
-    with reported():
+    with reported(as_json=json):
         from birdmb.cli.birds import requested_bird  # noqa: PLC0415 - slow to import
 
         bird = requested_bird(topology, assignments or [])
 
         from birdmb.cli.check import run  # noqa: PLC0415 - slow to import
 
-        run(bird)
+        run(bird, as_json=json)
 
 
 @app.command(
@@ -205,6 +205,7 @@ def branch(
         str,
         typer.Option(
             metavar="NAME",
+            autocompletion=dotted_names,
             help="Dotted name of the number to vary: shoulder.flap.stiffness, gait.frequency, "
             "wing.root.x.",
         ),

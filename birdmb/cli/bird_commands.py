@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from birdmb.cli.completion import birds_and_files
 from birdmb.cli.options import Json, number
 from birdmb.cli.outcome import reported
 
@@ -33,6 +34,7 @@ def new(
         str | None,
         typer.Option(
             metavar="BIRD",
+            autocompletion=birds_and_files,
             help="A bird of the package, or a topology file, to copy; with --from, whose gait and "
             "joints to take.",
         ),
@@ -87,7 +89,12 @@ def scale(
         ),
     ] = None,
     like: Annotated[
-        str, typer.Option(metavar="BIRD", help="The bird of the package, or file, to scale.")
+        str,
+        typer.Option(
+            metavar="BIRD",
+            autocompletion=birds_and_files,
+            help="The bird of the package, or file, to scale.",
+        ),
     ] = "ibis",
     out: Annotated[
         Path | None,
@@ -119,7 +126,9 @@ def kinematics(
     like: Annotated[
         str,
         typer.Option(
-            metavar="BIRD", help="The bird of the package, or topology file, whose joints move so."
+            metavar="BIRD",
+            autocompletion=birds_and_files,
+            help="The bird of the package, or topology file, whose joints move so.",
         ),
     ],
     frame: Annotated[

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,8 +17,8 @@ from birdmb.cli.files import prepare, write_figure
 from birdmb.cli.models import model_class
 from birdmb.cli.outcome import InputError, SearchFailed
 from birdmb.cli.progress import Progress, at_work
-from birdmb.cli.report import table_of
 from birdmb.cli.results import finite
+from birdmb.cli.tables import table_of
 from birdmb.orbits import (
     Bifurcation,
     BranchFileError,
@@ -172,36 +173,58 @@ def _followed(
         ) from error
 
 
+# Of a narrow terminal's lines, what is left out first.
+_LEAST_WANTED = ("nodes", "error", "climb, m/s", "speed, m/s", "point")
+
+
 class _Lines:
     """Writes a line for every point and bifurcation."""
 
     def __init__(self, progress: Progress, parameter: str) -> None:
         self._progress, self._parameter = progress, parameter
-        self._width = max(len(parameter), 12)
+        widths = {
+            "point": 5,
+            parameter: max(len(parameter), 12),
+            "|Λ|max": 8,
+            "error": 7,
+            "stability": 9,
+            "speed, m/s": 10,
+            "climb, m/s": 10,
+            "nodes": 5,
+        }
+        self._widths = {name: widths[name] for name in progress.fitting(widths, _LEAST_WANTED)}
         self._headed = False
         self.number = 0
 
     def __call__(self, item: BranchPoint | Bifurcation) -> None:
         if not self._headed:
             self._headed = True
-            self._progress.line(
-                f"{'point':>5}  {self._parameter:>{self._width}}  {'|Λ|max':>8}  {'error':>7}  "
-                f"{'stability':<9}  {'speed, m/s':>10}  {'climb, m/s':>10}  {'nodes':>5}",
-                style="bold",
-            )
+            self._write({name: name for name in self._widths}, "bold")
         if isinstance(item, Bifurcation):
             self._progress.line(f"       {_sentence(item, self._parameter)}", style="bold")
             return
         self.number += 1
         modulus, error = _largest(item)
         seen = item.observables
-        self._progress.line(
-            f"{self.number:>5}  {item.parameter:>{self._width}.8g}  {modulus:>8.5f}  "
-            f"{error:>7.0e}  {item.stability:<9}  {seen['mean_speed']:>10.3f}  "
-            f"{seen['mean_climb_rate']:>+10.3f}  {item.nodes or 'shot':>5}",
-            style=_STYLES[item.stability],
-        )
+        values = {
+            "point": str(self.number),
+            self._parameter: f"{item.parameter:.8g}",
+            "|Λ|max": f"{modulus:.5f}",
+            "error": f"{error:.0e}",
+            "stability": item.stability,
+            "speed, m/s": f"{seen['mean_speed']:.3f}",
+            "climb, m/s": f"{seen['mean_climb_rate']:+.3f}",
+            "nodes": str(item.nodes or "shot"),
+        }
+        self._write(values, _STYLES[item.stability])
         self._progress.doing("following the branch")
+
+    def _write(self, values: Mapping[str, str], style: str) -> None:
+        cells = (
+            f"{values[name]:<{width}}" if name == "stability" else f"{values[name]:>{width}}"
+            for name, width in self._widths.items()
+        )
+        self._progress.line("  ".join(cells).rstrip(), style=style)
 
 
 def _largest(point: BranchPoint) -> tuple[float, float]:

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import json
+import sys
+from dataclasses import asdict
+
 import numpy as np
+import typer
 from rich.table import Table
 
 from birdmb.aerodynamics.body_drag import body_drag, body_drag_force
 from birdmb.aerodynamics.tail import tail_surface
 from birdmb.cli.console import messages, output
 from birdmb.cli.progress import Progress
-from birdmb.cli.report import table_of
+from birdmb.cli.results import finite
+from birdmb.cli.tables import table_of
 from birdmb.errors import StateError
 from birdmb.models.natural_oscillation import (
     NaturalOscillation,
@@ -24,25 +30,22 @@ from birdmb.topology import SIDES, Bird, Joint
 _DRAG_SPEED = 10.0  # m/s
 
 
-def run(bird: Bird) -> None:
+def run(bird: Bird, *, as_json: bool) -> None:
     """Print what a bird is, and warnings."""
     progress = Progress(messages())
     with progress.shown():
         progress.doing("measuring the wing")
-        tables = [_bird(bird), _segments(bird), _joints(bird)]
-        if any(not _is_one_sine(joint) for _, joint in _joints_by_side(bird)):
-            tables.append(_drivers(bird))
-        if bird.compliant_joints:
-            tables.append(_oscillations("Compliant joints", "joint", joint_oscillations(bird)))
-        if bird.hinged_feathers:
-            tables.append(_oscillations("Hinges of feathers", "hinge", hinge_oscillations(bird)))
         warnings = bird_warnings(bird)
         change = _load_change(bird, progress)
         if change is not None:
-            tables.insert(1, _loads(bird, change))
             warnings += load_warnings(change)
+        told = _object(bird, change, warnings) if as_json else _tables(bird, change)
+    if as_json:
+        json.dump(told, sys.stdout, indent=2, allow_nan=False)
+        typer.echo()
+        return
     console = output()
-    for table in tables:
+    for table in told:
         console.print()
         console.print(table)
     console.print()
@@ -50,6 +53,68 @@ def run(bird: Bird) -> None:
         console.print(f"Warning: {warning}", style="yellow", highlight=False, markup=False)
     if not warnings:
         console.print("No warnings.", style="green")
+
+
+def _tables(bird: Bird, change: LoadChange | None) -> list[Table]:
+    tables = [_bird(bird), _segments(bird), _joints(bird)]
+    if any(not _is_one_sine(joint) for _, joint in _joints_by_side(bird)):
+        tables.append(_drivers(bird))
+    if bird.compliant_joints:
+        tables.append(_oscillations("Compliant joints", "joint", joint_oscillations(bird)))
+    if bird.hinged_feathers:
+        tables.append(_oscillations("Hinges of feathers", "hinge", hinge_oscillations(bird)))
+    if change is not None:
+        tables.insert(1, _loads(bird, change))
+    return tables
+
+
+def _object(bird: Bird, change: LoadChange | None, warnings: list[str]) -> dict[str, object]:
+    """What `birdmb check --json` prints, in SI units and rad."""
+    regime, numbers = flight_regime(bird), bird.wing.resolved_discretisation
+    swinging = joint_oscillations(bird) | hinge_oscillations(bird)
+    return {
+        "bird": bird.name,
+        "fingerprint": bird.fingerprint(),
+        "mass": bird.total_mass,
+        "body_mass": bird.body.mass,
+        "inertia_yy": bird.body.inertia_yy,
+        "frequency": bird.gait.frequency,
+        "lift_coefficient": LIFT_COEFFICIENT,
+        **{name: finite(value) for name, value in asdict(regime).items()},
+        "elements": numbers.elements,
+        "scheme": numbers.scheme,
+        "load_change": None if change is None else asdict(change),
+        "segments": {
+            name: {"length": segment.length, "mass": segment.mass}
+            for name, segment in bird.segments.items()
+        },
+        "joints": {name: _joint_object(joint) for name, joint in _joints_by_side(bird)},
+        "oscillations": {name: _free_object(free) for name, free in swinging.items()},
+        "warnings": warnings,
+    }
+
+
+def _joint_object(joint: Joint) -> dict[str, object]:
+    low, high = joint.driver.range
+    return {
+        "segment": joint.segment,
+        "mode": joint.mode,
+        "stiffness": joint.stiffness,
+        "damping": joint.damping,
+        "mean": joint.driver.mean,
+        "lowest": low,
+        "highest": high,
+        "harmonics": len(joint.driver.cosine),
+    }
+
+
+def _free_object(free: NaturalOscillation) -> dict[str, object]:
+    return {
+        "stiffness": free.stiffness,
+        "damping": free.damping,
+        "inertia": free.inertia,
+        "frequency": finite(free.frequency) if free.inertia else None,
+    }
 
 
 def _load_change(bird: Bird, progress: Progress) -> LoadChange | None:

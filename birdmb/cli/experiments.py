@@ -10,7 +10,7 @@ from rich.console import Console
 
 from birdmb.cli.console import messages, output
 from birdmb.cli.progress import Progress
-from birdmb.cli.report import table_of
+from birdmb.cli.tables import table_of
 from birdmb.studies.experiments.cases import experiments
 from birdmb.studies.experiments.comparison import (
     ATTACHED,

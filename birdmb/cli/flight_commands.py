@@ -8,6 +8,7 @@ from typing import Annotated
 
 import typer
 
+from birdmb.cli.completion import assigned_names
 from birdmb.cli.options import (
     Assignments,
     ClimbRate,
@@ -95,6 +96,7 @@ def trim(
         list[str] | None,
         typer.Option(
             metavar="NAME=LOW:HIGH",
+            autocompletion=assigned_names,
             help="Trim by this value of the bird, within the bounds; twice with a --speed.",
             show_default="the offset of the joint that turns the chords, -30 to 30 degrees; with "
             "a speed the amplitude of the one that flaps too, 15 to 70, or its gain",
@@ -268,6 +270,7 @@ def tail_study(
         list[str] | None,
         typer.Option(
             metavar="NAME=VALUES",
+            autocompletion=assigned_names,
             help="Values, as of `birdmb sweep --vary`, of tail.opening_deg and of one or two more.",
             show_default="an opening of 0 to 45 degrees, the flap amplitude 1.1 to 0.7 times the "
             "bird's own, the offset of the sweep up to 3 degrees to either side",
@@ -277,6 +280,7 @@ def tail_study(
         list[str] | None,
         typer.Option(
             metavar="NAME=LOW:HIGH",
+            autocompletion=assigned_names,
             help="Level the flight by this value of the bird, within the bounds.",
             show_default="the offset of the joint that turns the chords, -30 to 30 degrees",
         ),

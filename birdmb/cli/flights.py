@@ -14,9 +14,9 @@ from birdmb.cli.console import messages, output
 from birdmb.cli.files import prepare
 from birdmb.cli.outcome import NO_CYCLE, ResultUnwrittenError, SearchFailed
 from birdmb.cli.progress import Progress, at_work
-from birdmb.cli.report import table_of
 from birdmb.cli.results import result_object
 from birdmb.cli.searching import TRIM, announce, deflations_for, model_of, number_of, told
+from birdmb.cli.tables import table_of
 from birdmb.errors import OutputError
 from birdmb.orbits import find_limit_cycles
 from birdmb.studies import assess_validity
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from birdmb.models import FlightCycle
-    from birdmb.models.motion import MotionName
+    from birdmb.models.motion import FlightMotionName
     from birdmb.studies import Validity
     from birdmb.topology import Bird
 
@@ -33,7 +33,7 @@ _STYLES = {"stable": "green", "unstable": "red", "undecided": "yellow"}
 
 
 def run(
-    bird: Bird, model_name: str, motion: MotionName, *, out: Path | None, as_json: bool
+    bird: Bird, model_name: str, motion: FlightMotionName, *, out: Path | None, as_json: bool
 ) -> None:
     """Find the flights of a bird, list them on standard output and write them into `out`."""
     if out is not None:
@@ -71,7 +71,7 @@ def run(
 
 
 def _found(
-    bird: Bird, model_name: str, motion: MotionName, progress: Progress
+    bird: Bird, model_name: str, motion: FlightMotionName, progress: Progress
 ) -> list[FlightCycle]:
     model = model_of(bird, model_name, motion, None)
     announce(model, model_name, progress)

@@ -18,9 +18,9 @@ from birdmb.cli.drawing import plain_style
 from birdmb.cli.files import prepare, write_dataset, write_figure
 from birdmb.cli.outcome import NO_CYCLE, InputError, ResultUnwrittenError
 from birdmb.cli.progress import Progress, at_work
-from birdmb.cli.report import table_of
 from birdmb.cli.results import finite, verdict_sentence
 from birdmb.cli.searching import TRIM, Search, announce, found_flight, model_of
+from birdmb.cli.tables import table_of
 from birdmb.errors import OutputError
 from birdmb.figures import plot_gust_response, plot_gust_states
 from birdmb.models import CosineGust, GaussianGust, StepGust
@@ -29,7 +29,7 @@ from birdmb.studies.gust import gust_response
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
-    from birdmb.models.motion import MotionName
+    from birdmb.models.motion import FlightMotionName
     from birdmb.studies.body_gust import GustAxes
     from birdmb.topology import Bird
 
@@ -81,7 +81,7 @@ class GustOptions:
 def run(
     bird: Bird,
     model_name: str,
-    motion: MotionName,
+    motion: FlightMotionName,
     options: GustOptions,
     *,
     out: Path | None,

@@ -18,8 +18,8 @@ from birdmb.cli.console import messages, output
 from birdmb.cli.drawing import plain_style
 from birdmb.cli.files import write_figure
 from birdmb.cli.progress import Progress
-from birdmb.cli.report import table_of
 from birdmb.cli.results import finite
+from birdmb.cli.tables import table_of
 from birdmb.kinematics import JointMotion, KinematicsFit, fit_kinematics
 
 _FINEST = 4  # decimals

@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any, TypeAlias
 
 from birdmb.models import MultibodyModel, RigidModel
-from birdmb.models.motion import MotionName
+from birdmb.models.motion import FlightMotionName
 from birdmb.topology import Bird
 
 ModelClass: TypeAlias = type[RigidModel] | type[MultibodyModel]
@@ -21,7 +21,7 @@ def model_class(name: str) -> ModelClass:
 
 
 def bound_model(
-    name: str, motion: MotionName, steps_per_beat: int | None
+    name: str, motion: FlightMotionName, steps_per_beat: int | None
 ) -> Callable[[Bird], RigidModel | MultibodyModel]:
     """What makes the models that the options --model, --motion and --steps-per-beat name."""
     options: dict[str, Any] = {}

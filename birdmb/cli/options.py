@@ -8,6 +8,7 @@ from typing import Annotated
 
 import typer
 
+from birdmb.cli.completion import assigned_names, birds_and_files
 from birdmb.cli.outcome import InputError, reported
 
 MOST_STEPS = 10_000  # per wingbeat; the tables of a beat fill the memory
@@ -61,13 +62,17 @@ def number(
 
 Topology = Annotated[
     str,
-    typer.Argument(help="Topology file (TOML), or the name of a bird of the package."),
+    typer.Argument(
+        help="Topology file (TOML), or the name of a bird of the package.",
+        autocompletion=birds_and_files,
+    ),
 ]
 Assignments = Annotated[
     list[str] | None,
     typer.Option(
         "--set",
         metavar="NAME=VALUE",
+        autocompletion=assigned_names,
         help="Change a value of the bird by its dotted name: body.mass=1.3, "
         "shoulder.flap.stiffness=20, wing.discretisation=published. Repeatable.",
     ),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -20,8 +20,8 @@ from birdmb.files import remove_drafts
 if TYPE_CHECKING:
     from birdmb.orbits.iteration import Iteration
 
-_HEADING = f"{'iteration':>9}  {'residual':>9}  {'step':>9}  {'damping':>9}"
-_NODES = f"  {'nodes':>5}"
+# Of a narrow terminal's lines, what is left out first.
+_LEAST_WANTED = ("damping", "step", "nodes")
 
 
 class Progress:
@@ -55,15 +55,32 @@ class Progress:
 
     def iteration(self, step: Iteration) -> None:
         """Write a line on an accepted step of the search."""
-        if step.number == 0:
-            self.line(_HEADING + (_NODES if step.nodes else ""), style="bold")
-        took = f"{step.step_length:>9.2e}  {step.damping:>9.3g}"
         # A larger number of nodes begins with the orbit of the one before.
-        if step.step_length == 0.0:
-            took = f"{'guess' if step.number == 0 else '':>9}  {'':>9}"
-        nodes = f"  {step.nodes:>5}" if step.nodes else ""
-        self.line(f"{step.number:>9}  {step.residual:>9.2e}  {took}{nodes}".rstrip())
+        moved = step.step_length != 0.0
+        begun = "guess" if step.number == 0 else ""
+        values = {
+            "iteration": str(step.number),
+            "residual": f"{step.residual:.2e}",
+            "step": f"{step.step_length:.2e}" if moved else begun,
+            "damping": f"{step.damping:.3g}" if moved else "",
+            "nodes": str(step.nodes or ""),
+        }
+        if not step.nodes:
+            del values["nodes"]
+        columns = self.fitting({name: max(9, len(name)) for name in values}, _LEAST_WANTED)
+        if step.number == 0:
+            self.line("  ".join(f"{name:>9}" for name in columns), style="bold")
+        self.line("  ".join(f"{values[name]:>9}" for name in columns).rstrip())
         self.doing("searching")
+
+    def fitting(self, widths: Mapping[str, int], least_wanted: Sequence[str]) -> list[str]:
+        """The columns that a line has room for, those that are least wanted left out first."""
+        columns = dict(widths)
+        for name in least_wanted:
+            if sum(columns.values()) + 2 * (len(columns) - 1) <= self._console.width:
+                break
+            columns.pop(name, None)
+        return list(columns)
 
 
 class _Doing:

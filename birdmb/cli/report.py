@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from rich import box
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
 from birdmb.cli.results import growth, verdict_sentence
+from birdmb.cli.tables import table_of
 from birdmb.quantities import BY_NAME, DISSIPATORS, IN_DEGREES, VALIDITIES
 
 if TYPE_CHECKING:
@@ -38,24 +38,6 @@ def print_report(console: Console, cycle: FlightCycle, validity: Validity) -> No
         console.print(f"stall: {validity.stall}", highlight=False)
     for warning in validity.warnings:
         console.print(f"outside the model's validity: {warning}", style="yellow", highlight=False)
-
-
-def table_of(title: str, *columns: str, numbers: tuple[int, ...] = ()) -> Table:
-    """An empty table; the columns whose positions are among `numbers` are set flush right."""
-    table = Table(
-        title=title,
-        title_justify="left",
-        title_style="bold",
-        caption_justify="left",
-        box=box.SIMPLE_HEAD,
-        show_edge=False,
-        pad_edge=False,
-    )
-    for i, column in enumerate(columns):
-        table.add_column(
-            column, justify="right" if i in numbers else "left", no_wrap=i == 0 or i in numbers
-        )
-    return table
 
 
 def _orbit(cycle: FlightCycle) -> Table:

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from birdmb.cli.progress import Progress
     from birdmb.cli.saved_guess import SavedGuess
     from birdmb.models import FlightCycle
-    from birdmb.models.motion import MotionName
+    from birdmb.models.motion import FlightMotionName
     from birdmb.orbits.newton import Damping
     from birdmb.orbits.search import SearchMethod
     from birdmb.topology import Bird
@@ -51,7 +51,7 @@ class Search:
     """What the options say about model and search; see `find_limit_cycle`."""
 
     model: str
-    motion: MotionName
+    motion: FlightMotionName
     segments: int | None
     tolerance: float
     max_iterations: int
@@ -74,7 +74,7 @@ class Search:
 
 
 def model_of(
-    bird: Bird, name: str, motion: MotionName, steps_per_beat: int | None
+    bird: Bird, name: str, motion: FlightMotionName, steps_per_beat: int | None
 ) -> RigidModel | MultibodyModel:
     """The model of a bird that the options --model and --motion name.
 

@@ -5,23 +5,17 @@ from __future__ import annotations
 import codecs
 import os
 import sys
+import unicodedata
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout, suppress
 
 from birdmb.cli.outcome import BAD_INPUT
+from birdmb.text import SPELLED_OUT
 
-_SPELLED_OUT = {
-    "Λ": "Lambda",
-    "Γ": "Gamma",
-    "θ": "theta",
-    "°": "deg",
-    "±": "+-",
-    "−": "-",
-    "×": "x",
-    "²": "2",
-    "≤": "<=",
-    "…": "...",
-}
+# First and last of Unicode's characters for drawing lines, filling bars, and of braille.
+_BOXES, _BLOCKS, _LAST_BLOCK = "\u2500", "\u2580", "\u259f"
+_BRAILLE, _LAST_BRAILLE = "\u2800", "\u28ff"
+_DRAWN = dict.fromkeys("─━╌╍┄┅═╸╺╴╶", "-") | dict.fromkeys("│┃║╎╏", "|")
 _NOBODY_READS = 141  # as a shell reports the signal that usually ends a program then
 
 
@@ -59,7 +53,21 @@ def _spelled_out(error: UnicodeError) -> tuple[str, int]:
     if not isinstance(error, UnicodeEncodeError):
         raise error
     lacking = error.object[error.start : error.end]
-    return "".join(_SPELLED_OUT.get(character, "?") for character in lacking), error.end
+    return "".join(map(_in_ascii, lacking)), error.end
+
+
+def _in_ascii(character: str) -> str:
+    """A character in ASCII: spelled out, drawn, without its accent, or as a question mark."""
+    if character in SPELLED_OUT:
+        return SPELLED_OUT[character]
+    if _BRAILLE <= character <= _LAST_BRAILLE:  # of a spinner
+        return "*"
+    if _BOXES <= character < _BLOCKS:
+        return _DRAWN.get(character, "+")
+    if _BLOCKS <= character <= _LAST_BLOCK:
+        return "#"
+    plain = unicodedata.normalize("NFKD", character).encode("ascii", "ignore").decode()
+    return plain or "?"
 
 
 def _discard_what_is_left() -> None:

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from birdmb.cli.completion import assigned_names
 from birdmb.cli.options import (
     Assignments,
     ClimbRate,
@@ -44,6 +45,7 @@ def sweep(
         list[str],
         typer.Option(
             metavar="NAME=VALUES",
+            autocompletion=assigned_names,
             help="Vary a value of the bird by its dotted name: NAME=FIRST:LAST:COUNT or "
             "NAME=VALUE,VALUE,... Repeatable, for a grid. Begin where the bird flies well: points "
             "start from the flights before them.",
@@ -61,6 +63,7 @@ def sweep(
         list[str] | None,
         typer.Option(
             metavar="NAME=LOW:HIGH",
+            autocompletion=assigned_names,
             help="Trim the flight of every point by this value of the bird, within the bounds: to "
             "level flight, or as --climb-rate and --speed say. Twice if a speed is wanted.",
         ),

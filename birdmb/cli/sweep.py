@@ -14,7 +14,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, SpinnerColumn
 
 from birdmb.cli.console import messages
 from birdmb.cli.models import bound_model
-from birdmb.models.motion import MotionName
+from birdmb.models.motion import FlightMotionName
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.relevance import ignored_values
 from birdmb.studies.sweeps import Finished, Study, Trimming, sweep
@@ -31,7 +31,7 @@ def run(
     *,
     workers: int | None,
     model: str,
-    motion: MotionName,
+    motion: FlightMotionName,
     steps_per_beat: int | None,
     trim: Trimming | None,
     search: Mapping[str, Any],

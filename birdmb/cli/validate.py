@@ -13,7 +13,7 @@ from rich.console import Console
 from birdmb.cli.console import messages, output
 from birdmb.cli.outcome import InputError
 from birdmb.cli.progress import Progress, at_work
-from birdmb.cli.report import table_of
+from birdmb.cli.tables import table_of
 from birdmb.reproduction import page
 from birdmb.reproduction.cases import published_cases
 from birdmb.reproduction.published import Comparison, compare

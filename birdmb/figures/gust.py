@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
+from birdmb.arguments import checked
 from birdmb.figures.style import symbol
 from birdmb.text import in_figure
 
@@ -18,6 +19,7 @@ _PANELS = {"u": ("m/s", 1.0), "w": ("m/s", 1.0)} | {
 }
 
 
+@checked
 def plot_gust_response(data: xr.Dataset) -> Figure:
     """Draw a `gust_response`: the gust, the deviations from the limit cycle, and the height."""
     figure = Figure(figsize=(10, 7.5), layout="constrained")

@@ -9,6 +9,7 @@ from os import PathLike
 import numpy as np
 
 from birdmb._typing import FloatArray
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError
 from birdmb.kinematics.axes import check_axes
 from birdmb.kinematics.beats import beat_frequency, most_harmonics
@@ -33,6 +34,7 @@ _PASSES = 3
 _FIRST_SCATTER = 1e-2  # of typical sizes, before the residuals tell it
 
 
+@checked
 def fit_kinematics(
     data: Measured,
     like: Bird | str | PathLike[str],

@@ -13,8 +13,9 @@ import numpy as np
 from birdmb._kernels import kernel
 from birdmb._typing import Array, FloatArray, IntArray
 from birdmb.kinematics.errors import KinematicsError
+from birdmb.text import nearest
 from birdmb.topology import Bird
-from birdmb.topology.messages import nearest, shown
+from birdmb.topology.messages import shown
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.chain import joint_chain
 from birdmb.wing.edges import trailing_edge

@@ -15,7 +15,8 @@ import xarray as xr
 from birdmb._typing import FloatArray
 from birdmb.kinematics.errors import KinematicsError
 from birdmb.kinematics.files import Columns, read_columns
-from birdmb.topology.messages import nearest, shown
+from birdmb.text import nearest
+from birdmb.topology.messages import shown
 
 Measured: TypeAlias = str | PathLike[str] | xr.Dataset | Mapping[str, npt.ArrayLike]
 

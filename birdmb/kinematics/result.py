@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from birdmb._typing import FloatArray
+from birdmb.summary import Fact, Summarised, shortened, with_error
 from birdmb.topology import Bird
 
 if TYPE_CHECKING:
@@ -25,8 +26,8 @@ _OF_THE_DRIVER = (
 )
 
 
-@dataclass(frozen=True)
-class JointMotion:
+@dataclass(frozen=True, repr=False)
+class JointMotion(Summarised):
     """The driver of a joint: offset + sum over m of amplitude_m sin(m w t + phase_m).
 
     Attributes:
@@ -69,8 +70,8 @@ class MarkerFit:
     missing: int
 
 
-@dataclass(frozen=True)
-class KinematicsFit:
+@dataclass(frozen=True, repr=False)
+class KinematicsFit(Summarised):
     """A bird with the gait of a measured motion, and how sure that gait is.
 
     Attributes:
@@ -111,6 +112,21 @@ class KinematicsFit:
     measured: FloatArray = field(repr=False)
     fitted: FloatArray = field(repr=False)
     like_file: Path | None = None
+
+    def _title(self) -> str:
+        return self.bird.name
+
+    def _summary(self) -> Iterator[Fact]:
+        yield Fact("wingbeat", with_error(self.frequency, self.frequency_error), "Hz")
+        yield Fact("beats", str(self.beats))
+        yield Fact("frames", str(self.frames))
+        for name, motion in self.joints.items():
+            mean, error = math.degrees(motion.offset), math.degrees(motion.offset_error)
+            largest = math.degrees(float(motion.amplitudes[0]))
+            yield Fact(name, f"{mean:.1f} ± {error:.1f}, amplitude {largest:.1f}", "°")
+        for name in self.undetermined:
+            yield Fact(name, "not told by the data")
+        yield from (Fact("", shortened(remark)) for remark in self.remarks)
 
     def column(self, name: str) -> int:
         """Place of a marker's x, or of a joint's angle, among the columns."""

@@ -9,10 +9,11 @@ import numpy as np
 
 from birdmb._typing import FloatArray
 from birdmb.models.loads import Loads, LoadsAlong
+from birdmb.summary import Summarised
 
 
-@dataclass(frozen=True)
-class Beat:
+@dataclass(frozen=True, repr=False)
+class Beat(Summarised):
     """One wingbeat of a limit cycle at K equidistant times, the first repeated at the end."""
 
     times: FloatArray

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -10,10 +11,11 @@ import numpy.typing as npt
 from scipy.interpolate import CubicHermiteSpline
 
 from birdmb._typing import FloatArray
+from birdmb.summary import Fact, Summarised, shortened
 
 
-@dataclass(frozen=True)
-class Flight:
+@dataclass(frozen=True, repr=False)
+class Flight(Summarised):
     """States of a model along one solution."""
 
     state_names: tuple[str, ...]
@@ -23,6 +25,13 @@ class Flight:
     """(K, n), in SI units."""
     rates: FloatArray
     """(K, n), time derivatives of the states."""
+
+    def _summary(self) -> Iterator[Fact]:
+        yield Fact("times", str(len(self.times)))
+        if len(self.times):
+            yield Fact("from", f"{self.times[0]:.6g}", "s")
+            yield Fact("to", f"{self.times[-1]:.6g}", "s")
+        yield Fact("states", shortened(", ".join(self.state_names)))
 
     @cached_property
     def _spline(self) -> CubicHermiteSpline:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -12,6 +13,7 @@ import numpy as np
 import xarray as xr
 
 from birdmb._typing import FloatArray
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError
 from birdmb.models.beat import Beat
 from birdmb.models.cycle_variables import outlines, variables_of_wing
@@ -21,7 +23,9 @@ from birdmb.models.motion import HELD, SPACE_STATES, heading_rate, heading_veloc
 from birdmb.models.stepped_cycle import SteppedCycle
 from birdmb.models.wing_model import STEPS_PER_BEAT
 from birdmb.orbits.cycle_dataset import described
+from birdmb.orbits.result import largest_modulus
 from birdmb.quantities import DISSIPATORS, described_by
+from birdmb.summary import Fact, facts_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -39,12 +43,27 @@ def _mean(values: FloatArray) -> FloatArray:
     return np.asarray(values[:-1].mean(axis=0))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class FlightCycle(SteppedCycle):
     """Limit cycle of a bird: besides the orbit, the means over a beat that its flight is judged by.
 
     Powers are means over a beat, in W, of both wings together.
     """
+
+    def _title(self) -> str:
+        return self.model.bird.name
+
+    def _summary(self) -> Iterator[Fact]:
+        yield Fact("verdict", self.stability)
+        yield largest_modulus(self)
+        if self.why_no_flight is not None:
+            yield Fact("", f"not a flight: {self.why_no_flight}")
+        yield from facts_of(self, "mean_speed", "mean_climb_rate", "mean_pitch", "period")
+        yield from facts_of(self, "power", "cost_of_transport")
+        yield Fact("motion", self.model.motion.name)
+        yield from self._summary_of_search()
+        for check in self.failed_checks:
+            yield Fact("", f"not to be trusted: {check}")
 
     @cached_property
     def beat(self) -> Beat:
@@ -158,6 +177,7 @@ class FlightCycle(SteppedCycle):
         powers = zip(self.model.bird.angle_names, self.beat.driver_power.T, strict=True)
         return {name: work_by_sign(self.beat.times, power) for name, power in powers}
 
+    @checked
     def muscle_power(self, recovery: float = 1.0) -> float:
         """Mean power of all drivers, W, if the part `recovery` of their negative work is recovered.
 

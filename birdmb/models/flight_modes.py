@@ -10,6 +10,7 @@ import numpy as np
 from birdmb._typing import FloatArray
 from birdmb.models.motion import Mirror, Motion
 from birdmb.orbits import LimitCycle
+from birdmb.summary import Summarised
 
 Plane = Literal["longitudinal", "lateral", "coupled"]
 
@@ -19,8 +20,8 @@ _MOST = 0.5
 _PHUGOID = ("u", "theta")
 
 
-@dataclass(frozen=True)
-class FlightMode:
+@dataclass(frozen=True, repr=False)
+class FlightMode(Summarised):
     """A mode in which disturbances of a flight grow or decay.
 
     Attributes:

@@ -9,6 +9,7 @@ from typing import TypeAlias
 import numpy as np
 
 from birdmb._typing import FloatArray
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError
 
 Gust: TypeAlias = Callable[[float], Sequence[float]]
@@ -34,6 +35,7 @@ def velocity_of(gust: Gust, t: float) -> FloatArray:
     return np.array([given[0], given[2] if given.size == 3 else 0.0, -given[1]])
 
 
+@checked
 @dataclass(frozen=True)
 class GaussianGust:
     """A gust that rises and falls like exp(-((t - time)/width)^2/2).
@@ -58,6 +60,7 @@ class GaussianGust:
         return self.horizontal * part, self.vertical * part, self.lateral * part
 
 
+@checked
 @dataclass(frozen=True)
 class CosineGust:
     """The 1-cosine gust of airworthiness codes: (1 - cos(2 pi (t - start)/duration))/2, once.
@@ -88,6 +91,7 @@ class CosineGust:
         return self.horizontal * part, self.vertical * part, self.lateral * part
 
 
+@checked
 @dataclass(frozen=True)
 class StepGust:
     """Air that moves steadily from a time on.

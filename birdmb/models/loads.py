@@ -10,12 +10,13 @@ import numpy as np
 from birdmb._typing import FloatArray, IntArray
 from birdmb.aerodynamics.airframe import AeroConstants
 from birdmb.models.loads_kernel import StackedLoads, StackedWing
+from birdmb.summary import Summarised
 
 _WHOLE = tuple(name for name in StackedLoads._fields if name not in {"right", "left"})
 
 
-@dataclass(frozen=True)
-class TailLoads:
+@dataclass(frozen=True, repr=False)
+class TailLoads(Summarised):
     """Loads of the tail at one instant, in body axes."""
 
     force: FloatArray
@@ -28,8 +29,8 @@ class TailLoads:
     """m/s along z, induced by the wings' vortices."""
 
 
-@dataclass(frozen=True)
-class WingLoads:
+@dataclass(frozen=True, repr=False)
+class WingLoads(Summarised):
     """Loads of one wing at one instant, in body axes; of the left one mirrored onto the right side.
 
     Arrays go from the root outwards.
@@ -61,8 +62,8 @@ class WingLoads:
     """(A,) N m, of the air about each joint and each feather's hinge."""
 
 
-@dataclass(frozen=True)
-class Loads:
+@dataclass(frozen=True, repr=False)
+class Loads(Summarised):
     """Loads of the air on a bird at one instant, in body axes (x forward, y right, z down)."""
 
     force: FloatArray

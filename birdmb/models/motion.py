@@ -18,6 +18,7 @@ from birdmb._typing import BoolArray, FloatArray, IntArray
 from birdmb.errors import ArgumentError
 
 MotionName = Literal["planar", "free", "held"]
+FlightMotionName = Literal["planar", "free"]
 
 SPACE_STATES = ("u", "v", "w", "p", "q", "r", "phi", "theta")
 _UNITS = ("m/s",) * 3 + ("rad/s",) * 3 + ("rad",) * 2

@@ -27,6 +27,7 @@ from birdmb.aerodynamics.prescribed_lags import (
     lag_table,
     no_lags,
 )
+from birdmb.arguments import checked
 from birdmb.errors import StateError
 from birdmb.models.air_kernel import Shapes
 from birdmb.models.failures import (
@@ -39,7 +40,7 @@ from birdmb.models.flight import Flight
 from birdmb.models.flight_cycle import FlightCycle
 from birdmb.models.gusts import Gust
 from birdmb.models.instants import NEARBY
-from birdmb.models.motion import PLANAR, Mirror, Motion, MotionName, motion_named
+from birdmb.models.motion import PLANAR, FlightMotionName, Mirror, Motion, motion_named
 from birdmb.models.refusals import refuse_asymmetric, require_inertia
 from birdmb.models.rigid_kernel import RigidBody, integrate_rigid, rates_along
 from birdmb.models.starts import INCIDENCES, PATH_ANGLES, SPEEDS, steady_states, steady_turns
@@ -98,11 +99,12 @@ class RigidModel(BirdModel):
     kind = "rigid"
     limit_cycle_type: type[FlightCycle] = FlightCycle
 
+    @checked
     def __init__(
         self,
         bird: Bird,
         *,
-        motion: MotionName = "planar",
+        motion: FlightMotionName = "planar",
         steps_per_beat: int | None = None,
         gust: Gust | None = None,
     ) -> None:

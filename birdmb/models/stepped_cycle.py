@@ -30,7 +30,7 @@ _STEP = 1e-5
 _PARTS_FLOWN = 6
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class SteppedCycle(LimitCycle):
     """Limit cycle of a bird, whose verdict counts the error of the integration.
 

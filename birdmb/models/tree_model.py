@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from birdmb._typing import BoolArray, FloatArray
+from birdmb.arguments import checked
 from birdmb.errors import StateError
 from birdmb.models.air_kernel import Motion, Shapes
 from birdmb.models.compiled_calls import COMPILED, calls_compiled_code
@@ -55,6 +56,7 @@ class TreeModel(BirdModel):
 
     kind = "multibody"
 
+    @checked
     def __init__(
         self,
         bird: Bird,

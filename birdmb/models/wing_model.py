@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Iterator
 from functools import cached_property, partial
 from typing import Any, ClassVar, Literal, Self
 
@@ -22,6 +23,7 @@ from birdmb.models.loads import Loads, LoadsAlong
 from birdmb.models.loads_kernel import Memory, loads_along
 from birdmb.models.motion import PLANAR, Mirror, Motion, along_body
 from birdmb.models.wake_states import WakeStates
+from birdmb.summary import Fact, Summarised, shortened
 from birdmb.topology import Bird
 from birdmb.wing.arrays import joint_arrays, wing_arrays
 from birdmb.wing.stacked import shape_at, wing_shapes
@@ -32,7 +34,7 @@ BODY_STATES, BODY_UNITS, BODY_SCALE = PLANAR.states, PLANAR.units, PLANAR.scale
 _ANGLES = ("phi", "theta")
 
 
-class BirdModel(ABC):
+class BirdModel(Summarised, ABC):
     """A bird with the loads of its wings; the first states are the body's, see `Motion`.
 
     Args:
@@ -62,6 +64,15 @@ class BirdModel(ABC):
         self._steps_wanted = steps_per_beat
         numbers = bird.wing.resolved_discretisation
         self.discretisation = (numbers.elements, numbers.rounding, numbers.scheme == "one-step")
+
+    def _title(self) -> str:
+        return self.bird.name
+
+    def _summary(self) -> Iterator[Fact]:
+        yield Fact("motion", self.motion.name)
+        yield Fact("states", shortened(", ".join(self.state_names)))
+        yield Fact("wingbeat", f"{self.bird.period:.4g}", "s")
+        yield Fact("air", self.bird.air.wake if self._gust is None else "in a gust")
 
     @cached_property
     def steps_per_beat(self) -> int:

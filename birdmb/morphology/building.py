@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from birdmb._typing import FloatArray
+from birdmb.arguments import checked
 from birdmb.errors import TopologyError
 from birdmb.morphology.parts import (
     BodyPart,
@@ -35,6 +36,7 @@ _DIGITS = 12  # significant; the rest is round-off, which a file need not show
 _HOW_IT_FLAPS = ("gait", "joints")
 
 
+@checked
 def bird_from_morphology(path: str | PathLike[str], like: Bird | None = None) -> Bird:
     """Make the bird that a morphology file (TOML) describes.
 

@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 import xarray as xr
 
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError, BirdmbError
 from birdmb.orbits.branch import Branch
 from birdmb.orbits.branch_points import Bifurcation
@@ -18,13 +19,14 @@ from birdmb.orbits.continuation import continue_branch
 from birdmb.orbits.errors import BIFURCATIONS_FOUND
 from birdmb.orbits.extended import Family
 from birdmb.orbits.problem import Model
+from birdmb.summary import Summarised
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-@dataclass(frozen=True)
-class BoundaryPoint:
+@dataclass(frozen=True, repr=False)
+class BoundaryPoint(Summarised):
     """Where the first change of stability lies for one value of the second parameter.
 
     Attributes:
@@ -38,8 +40,8 @@ class BoundaryPoint:
     reason: str
 
 
-@dataclass(frozen=True)
-class StabilityBoundary:
+@dataclass(frozen=True, repr=False)
+class StabilityBoundary(Summarised):
     """Stability boundary, one point for each value of the second parameter."""
 
     first_name: str
@@ -72,6 +74,7 @@ class StabilityBoundary:
         return plot_stability_boundary(self)
 
 
+@checked
 def stability_boundary(
     family: Callable[[float, float], Model],
     first_range: tuple[float, float],

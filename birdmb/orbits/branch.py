@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
@@ -14,6 +14,7 @@ import numpy as np
 import xarray as xr
 
 from birdmb._typing import FloatArray
+from birdmb.arguments import checked
 from birdmb.datafiles import family_attributes
 from birdmb.files import netcdf_bytes, write_whole
 from birdmb.orbits.branch_dataset import arrays_of, bifurcations_of, points_of
@@ -22,6 +23,7 @@ from birdmb.orbits.cycle_dataset import OF_STATE, described
 from birdmb.orbits.errors import BranchFileError, BranchStopped
 from birdmb.provenance import software
 from birdmb.seal import sealed, unsealed
+from birdmb.summary import Fact, Summarised
 from birdmb.text import on_one_line
 
 if TYPE_CHECKING:
@@ -31,8 +33,8 @@ _FORMAT = 4
 _SETTING = "setting_"
 
 
-@dataclass(frozen=True)
-class Branch:
+@dataclass(frozen=True, repr=False)
+class Branch(Summarised):
     """Periodic orbits along one parameter, in the order of travel.
 
     Attributes:
@@ -58,6 +60,23 @@ class Branch:
     stopped: BranchStopped | None
     settings: Mapping[str, str | float] = field(default_factory=dict)
     software: Mapping[str, str] = field(default_factory=software)
+
+    def _title(self) -> str:
+        return f"in {self.parameter_name}"
+
+    def _summary(self) -> Iterator[Fact]:
+        yield Fact("points", str(len(self.points)))
+        ends = [point.parameter for point in (*self.points[:1], *self.points[-1:])]
+        if ends:
+            yield Fact("from", f"{ends[0]:.6g}")
+            yield Fact("to", f"{ends[-1]:.6g}")
+        for verdict in dict.fromkeys(point.stability for point in self.points):
+            count = sum(point.stability == verdict for point in self.points)
+            yield Fact(verdict, str(count))
+        for found in self.bifurcations:
+            yield Fact(found.kind, f"{found.parameter:.6g}")
+        if self.stopped is not None:
+            yield Fact("stopped", self.stopped.reason)
 
     @property
     def parameters(self) -> FloatArray:
@@ -131,6 +150,7 @@ class Branch:
         return point.observables[quantity]
 
 
+@checked
 def load_branch(path: str | PathLike[str]) -> Branch:
     """Read a branch that `Branch.save` wrote.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -10,12 +11,13 @@ import numpy as np
 from birdmb._typing import BoolArray, ComplexArray, FloatArray
 from birdmb.orbits.cycle import OrbitMethod
 from birdmb.orbits.multipliers import Stability
+from birdmb.summary import Fact, Summarised, with_error
 
 BifurcationKind = Literal["fold", "period doubling", "Neimark-Sacker", "branch point", "multiple"]
 
 
-@dataclass(frozen=True)
-class BranchPoint:
+@dataclass(frozen=True, repr=False)
+class BranchPoint(Summarised):
     """One orbit of a branch.
 
     All of it is had again by `floquet(family(parameter), points, period, segments=len(points))`
@@ -54,14 +56,22 @@ class BranchPoint:
     method: OrbitMethod = "shooting"
     state_error: float = 0.0
 
+    def _summary(self) -> Iterator[Fact]:
+        yield Fact("parameter", f"{self.parameter:.6g}")
+        yield Fact("verdict", self.stability)
+        yield Fact("period", f"{self.period:.6g}", "s")
+        yield Fact("method", self.method)
+        for name, value in self.observables.items():
+            yield Fact(name, f"{value:.6g}")
+
     @property
     def nodes(self) -> int | None:
         """Number of collocation nodes; `None` of a shot orbit."""
         return len(self.points) if self.method == "collocation" else None
 
 
-@dataclass(frozen=True)
-class Bifurcation:
+@dataclass(frozen=True, repr=False)
+class Bifurcation(Summarised):
     """A located crossing of the unit circle by one or more multipliers.
 
     Attributes:
@@ -85,6 +95,11 @@ class Bifurcation:
     after: int
     crossing: BoolArray
     outside: tuple[int, int]
+
+    def _summary(self) -> Iterator[Fact]:
+        yield Fact("kind", self.kind)
+        yield Fact("parameter", with_error(self.parameter, self.parameter_error))
+        yield Fact("multipliers that cross", str(int(self.crossing.sum())))
 
     @property
     def parameter(self) -> float:

@@ -9,6 +9,7 @@ from typing import Any, Literal, TypedDict, Unpack, overload
 import numpy.typing as npt
 
 from birdmb._typing import FloatArray
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError, OrbitError, StateError
 from birdmb.orbits.coarse import CoarseOrbit, CoarseSearch
 from birdmb.orbits.collocation_search import search_by_collocation
@@ -81,6 +82,7 @@ def find_limit_cycles(
 ) -> list[LimitCycle]: ...
 
 
+@checked
 @one_thread()
 def find_limit_cycles(
     model: Model,

@@ -12,6 +12,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError
 from birdmb.orbits.branch import Branch
 from birdmb.orbits.branch_points import Bifurcation, BranchPoint
@@ -35,6 +36,7 @@ from birdmb.provenance import software
 _DEFAULT_STEPS = Steps()
 
 
+@checked
 def continue_branch(
     family: Family,
     parameter_range: tuple[float, float],

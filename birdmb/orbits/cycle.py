@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from os import PathLike
 from typing import Literal, Self
@@ -23,12 +23,13 @@ from birdmb.orbits.result import FloquetResult
 from birdmb.orbits.trigonometric import interpolated
 from birdmb.provenance import software
 from birdmb.seal import sealed
+from birdmb.summary import Fact
 
 CYCLE_FORMAT = 1
 OrbitMethod = Literal["collocation", "shooting"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class LimitCycle(FloquetResult):
     """A periodic orbit found by `find_limit_cycle`, with its Floquet multipliers.
 
@@ -54,6 +55,11 @@ class LimitCycle(FloquetResult):
     state_error: float = 0.0
     pieces: PiecewisePath | None = None
     search: Mapping[str, str | float | None] = field(default_factory=dict)
+
+    def _summary_of_search(self) -> Iterator[Fact]:
+        yield Fact("method", self.method)
+        if self.nodes is not None:
+            yield Fact("nodes", str(self.nodes))
 
     @classmethod
     def of(

@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError
 from birdmb.orbits.errors import NotClosedError, require_tolerance
 from birdmb.orbits.linearisation import linearise
@@ -21,6 +22,7 @@ from birdmb.orbits.segments import Segments, choose_jacobian
 from birdmb.orbits.shooting import ShootingEquations
 
 
+@checked
 def floquet(
     model: Model,
     x0: npt.ArrayLike,

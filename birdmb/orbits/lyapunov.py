@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
@@ -10,9 +11,11 @@ import numpy as np
 import numpy.typing as npt
 
 from birdmb._typing import FloatArray
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError, StateError
 from birdmb.orbits.problem import Model, Scalable, VariationalModel, flow_accuracy
 from birdmb.orbits.scales import lay_out
+from birdmb.summary import Fact, Summarised, with_error
 
 LyapunovMethod = Literal["variational", "neighbours"]
 
@@ -25,8 +28,8 @@ _MOST_PIECES = 2**12
 _LARGEST_SEPARATION = 0.01
 
 
-@dataclass(frozen=True)
-class LyapunovEstimate:
+@dataclass(frozen=True, repr=False)
+class LyapunovEstimate(Summarised):
     """Largest Lyapunov exponent of a solution.
 
     Attributes:
@@ -45,7 +48,13 @@ class LyapunovEstimate:
     running: FloatArray
     method: LyapunovMethod
 
+    def _summary(self) -> Iterator[Fact]:
+        yield Fact("exponent", with_error(self.exponent, self.error), "1/s")
+        yield Fact("method", self.method)
+        yield Fact("intervals", str(len(self.times)))
 
+
+@checked
 def largest_lyapunov_exponent(
     model: Model,
     x0: npt.ArrayLike,
@@ -95,8 +104,6 @@ def largest_lyapunov_exponent(
         )
     able = isinstance(model, VariationalModel)
     method = method or ("variational" if able else "neighbours")
-    if method not in {"variational", "neighbours"}:
-        raise ArgumentError(f'method must be "variational" or "neighbours", not "{method}".')
     if method == "variational" and not able:
         raise ArgumentError('method="variational" needs a model with flow_jacobian.')
     scale, points = lay_out(model, x0, start_time, interval, 1)

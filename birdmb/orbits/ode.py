@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Self, cast
 
@@ -11,8 +11,10 @@ import numpy as np
 import numpy.typing as npt
 
 from birdmb._typing import FloatArray
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError, StateError
 from birdmb.orbits.integration import SOLVERS, Integration, Integrator
+from birdmb.summary import Fact, Summarised, shortened
 
 Rhs = Callable[[float, FloatArray], npt.ArrayLike]
 
@@ -30,15 +32,15 @@ _SMALLEST_SIZE = 1e-200
 _RTOL_RANGE = (2.3e-14, 1e-2)
 
 
-@dataclass(frozen=True)
-class Trajectory:
+@dataclass(frozen=True, repr=False)
+class Trajectory(Summarised):
     """A solution at given times: `times` (k,) in s, `states` (k, n) in the units of the states."""
 
     times: FloatArray
     states: FloatArray
 
 
-class OdeModel:
+class OdeModel(Summarised):
     """Flow, variational equations and divergence of dx/dt = rhs(t, x).
 
     Integrated by default by DOP853 (Hairer, Norsett & Wanner 1993, Dormand-Prince of order 8 with
@@ -53,6 +55,7 @@ class OdeModel:
     of the flow and widen the error bars.
     """
 
+    @checked
     def __init__(
         self,
         rhs: Rhs,
@@ -112,6 +115,11 @@ class OdeModel:
         self._atol = _per_state("atol", atol, n, positive=True)
         self._integration = Integration(integrator, rtol, most_steps)
         self._stencil = _STENCIL_STEP
+
+    def _summary(self) -> Iterator[Fact]:
+        yield Fact("states", shortened(", ".join(self.state_names)))
+        yield Fact("period", "unknown" if self.period is None else f"{self.period:.6g} s")
+        yield Fact("integrator", self._integration.integrator)
 
     def scaled_to(self, scale: FloatArray) -> Self:
         """The same system with typical sizes (n,) for its states, if it was not given its own."""

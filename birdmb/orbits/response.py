@@ -10,16 +10,18 @@ import numpy.typing as npt
 import xarray as xr
 
 from birdmb._typing import FloatArray
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError, StateError
 from birdmb.orbits.result import FloquetResult
 from birdmb.orbits.segments import sample
+from birdmb.summary import Summarised
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-@dataclass(frozen=True)
-class PerturbedResponse:
+@dataclass(frozen=True, repr=False)
+class PerturbedResponse(Summarised):
     """Motion after a disturbance of a periodic orbit.
 
     Attributes:
@@ -59,6 +61,7 @@ class PerturbedResponse:
         return plot_response(self)
 
 
+@checked
 def mode_disturbance(
     orbit: FloquetResult, mode: int, amplitude: float, phase: float = 0.0
 ) -> FloatArray:
@@ -73,6 +76,7 @@ def mode_disturbance(
     return np.asarray(amplitude * (np.exp(1j * phase) * orbit.modes[:, mode]).real)
 
 
+@checked
 def perturbed_response(
     orbit: FloquetResult,
     disturbance: npt.ArrayLike,

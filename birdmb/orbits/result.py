@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -17,6 +18,7 @@ from birdmb.orbits.ode import Trajectory
 from birdmb.orbits.periodicity import turns
 from birdmb.orbits.problem import HasDivergence, HasStateUnits, Model
 from birdmb.orbits.segments import JacobianMethod, sample
+from birdmb.summary import Fact, Summarised, with_error
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -24,8 +26,8 @@ if TYPE_CHECKING:
 _FAR_OUTSIDE = 10.0
 
 
-@dataclass(frozen=True)
-class FloquetResult:
+@dataclass(frozen=True, repr=False)
+class FloquetResult(Summarised):
     """A periodic orbit of a model and its linearisation.
 
     Attributes:
@@ -81,6 +83,17 @@ class FloquetResult:
             value = getattr(self, each.name)
             if isinstance(value, np.ndarray):
                 object.__setattr__(self, each.name, np.ascontiguousarray(value))
+
+    def _summary(self) -> Iterator[Fact]:
+        yield Fact("verdict", self.stability)
+        yield largest_modulus(self)
+        yield Fact("period", f"{self.period:.6g}", "s")
+        yield from self._summary_of_search()
+        yield Fact("states", str(len(self.state_names)))
+
+    def _summary_of_search(self) -> Iterator[Fact]:
+        """How the orbit was found; nothing of one that was given."""
+        yield from ()
 
     def __str__(self) -> str:
         """Return the verdict, the period, the multipliers with their errors, and the remarks."""
@@ -318,3 +331,15 @@ class FloquetResult:
         from birdmb.figures import plot_orbit  # noqa: PLC0415 - it draws
 
         return plot_orbit(self)
+
+
+def largest_modulus(orbit: FloquetResult) -> Fact:
+    """The largest modulus of the multipliers, the trivial one left out, with its error bar."""
+    moduli = np.abs(orbit.multipliers)
+    if orbit.trivial_index is not None:
+        moduli[orbit.trivial_index] = -np.inf
+    if not np.isfinite(moduli).any():
+        return Fact("", "no multiplier but the trivial one")
+    largest = int(moduli.argmax())
+    value, error = float(moduli[largest]), float(orbit.verdict_errors[largest])
+    return Fact("|Λ|max", with_error(value, error))

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import Executor
 from dataclasses import replace
-from typing import Literal, TypedDict, TypeVar, Unpack, get_args, overload
+from typing import Literal, TypedDict, TypeVar, Unpack, overload
 
 import numpy as np
 import numpy.typing as npt
 
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError, OrbitError, StateError
 from birdmb.orbits.collocation_search import (
     FEWEST_INSTANTS,
@@ -73,6 +74,7 @@ def find_limit_cycle(
 ) -> LimitCycle: ...
 
 
+@checked
 def find_limit_cycle(
     model: Model,
     guess: npt.ArrayLike | FloquetResult | None = None,
@@ -149,7 +151,7 @@ def find_limit_cycle(
         SingularJacobianError: the equations have no unique solution where the search ended.
         EquilibriumError: the search ended on an equilibrium, or at period zero.
     """
-    _require_options(method, tolerance, accuracy, max_iterations)
+    _require_options(tolerance, accuracy, max_iterations)
     if isinstance(guess, FloquetResult) and period_guess is None and model.period is None:
         period_guess = guess.period
     shooting = _options_of_shooting(segments, jacobian)
@@ -234,11 +236,8 @@ def find_limit_cycle(
         return on_mesh(error)
 
 
-def _require_options(method: str, tolerance: float, accuracy: float, max_iterations: int) -> None:
+def _require_options(tolerance: float, accuracy: float, max_iterations: int) -> None:
     """Refuse options out of range; raises `ArgumentError`."""
-    if method not in get_args(SearchMethod):
-        choice = ", ".join(f'"{each}"' for each in get_args(SearchMethod))
-        raise ArgumentError(f'method must be one of {choice}, not "{method}".')
     require_tolerance("tolerance", tolerance)
     require_tolerance("accuracy", accuracy)
     if max_iterations < 1:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from birdmb._typing import FloatArray
+from birdmb.arguments import checked
 from birdmb.errors import OrbitError, StateError
 from birdmb.orbits.bifurcations import Neutral, counts_outside
 from birdmb.orbits.branch_points import Bifurcation, BranchPoint
@@ -38,6 +39,7 @@ class _NotNeighboursError(OrbitError):
 _Failure = (ConvergenceError, _NotNeighboursError, StateError, np.linalg.LinAlgError)
 
 
+@checked
 @dataclass(frozen=True)
 class Steps:
     """Step sizes along a branch, in its arclength: state scales and parameter ranges.

@@ -11,6 +11,7 @@ from typing import Any, TypeAlias, cast
 import numpy as np
 
 from birdmb._typing import FloatArray
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError, BirdmbError, StateError, TopologyError
 from birdmb.models import FlightCycle, FlightModel, MultibodyModel
 from birdmb.models.wing_model import BirdModel
@@ -46,6 +47,7 @@ OBSERVABLE_UNITS: Mapping[str, str] = {
 }
 
 
+@checked
 def bird_branch(
     bird: Bird,
     name: str,

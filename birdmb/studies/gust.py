@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import get_args
 
 import numpy as np
 import xarray as xr
@@ -13,6 +12,7 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
 from birdmb._typing import FloatArray, IntArray
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError, StateError
 from birdmb.models import FlightCycle, Gust
 from birdmb.models.gusts import velocity_of
@@ -31,6 +31,7 @@ _MOST_FLIGHTS = 30
 _SETTLED = 1e-8  # of the state scale
 
 
+@checked
 def gust_response(
     cycle: FlightCycle,
     gust: Gust,
@@ -72,8 +73,6 @@ def gust_response(
     """
     if periods < 1 or samples < 1:
         raise ArgumentError("periods and samples must be at least 1.")
-    if axes not in get_args(GustAxes):
-        raise ArgumentError(f'axes must be "world" or "body", not "{axes}".')
     motion = cycle.model.motion
     beats = np.arange(periods * samples + 1) / samples
     times: FloatArray = cycle.start_time + cycle.period * beats

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from birdmb._typing import FloatArray
+from birdmb.arguments import checked
 from birdmb.models import FlightCycle
 from birdmb.models.wing_model import BirdModel
 from birdmb.orbits import find_limit_cycle
+from birdmb.summary import Fact, Summarised
 
 _INSTANTS = 32
 
 
-@dataclass(frozen=True)
-class MemoryEffect:
+@dataclass(frozen=True, repr=False)
+class MemoryEffect(Summarised):
     """A flight in air whose circulation lags, and the flight beside it in quasi-steady air.
 
     `str()` of it is a sentence.
@@ -25,6 +28,15 @@ class MemoryEffect:
     """With `air.wake` unsteady: lags of the circulation, and apparent mass."""
     quasi_steady: FlightCycle
     """With `air.wake` quasi-steady."""
+
+    def _title(self) -> str:
+        return self.unsteady.model.bird.name
+
+    def _summary(self) -> Iterator[Fact]:
+        yield Fact("changes the verdict", "yes" if self.changes_verdict else "no")
+        yield Fact("with memory", self.unsteady.stability)
+        yield Fact("without", self.quasi_steady.stability)
+        yield Fact("change of |Λ|max", f"{self.multiplier_change:+.4f}")
 
     @property
     def multiplier_change(self) -> float:
@@ -41,13 +53,14 @@ class MemoryEffect:
         own, other = self.unsteady, self.quasi_steady
         verdict = "changes the verdict" if self.changes_verdict else "leaves the verdict as it is"
         return (
-            f"The memory of the air {verdict}: with it {own.stability}, |Λ|max "
+            f"The memory of the air {verdict}: with it {own.stability}, |Lambda|max "
             f"{_largest(own):.4f}, {own.mean_speed:.2f} m/s, {own.corrected_power:.2f} W as if "
             f"level; without it {other.stability}, {_largest(other):.4f}, "
             f"{other.mean_speed:.2f} m/s, {other.corrected_power:.2f} W."
         )
 
 
+@checked
 def memory_effect(cycle: FlightCycle) -> MemoryEffect:
     """Fly a bird in air with a memory and without, from the one flight to the other.
 

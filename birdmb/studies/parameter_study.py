@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from birdmb.arguments import checked
 from birdmb.errors import BirdmbError
 from birdmb.models import FlightCycle, RigidModel
 from birdmb.quantities import quantities
@@ -19,6 +20,7 @@ from birdmb.topology import Bird
 _KEPT = quantities(("mean_speed", "mean_climb_rate", "path_angle", "power", "residual"))
 
 
+@checked
 def parameter_study(
     bird: Bird, name: str, values: Sequence[Any], model: ModelFactory = RigidModel
 ) -> xr.Dataset:

@@ -7,11 +7,13 @@ import xarray as xr
 from scipy.interpolate import make_interp_spline
 
 from birdmb._typing import FloatArray
+from birdmb.arguments import checked
 from birdmb.models import FlightCycle
 from birdmb.models.motion import PLANAR, Motion, heading_rate, heading_velocity
 from birdmb.orbits import mode_disturbance, perturbed_response
 
 
+@checked
 def perturbed_flight(
     cycle: FlightCycle, *, amplitude: float = 0.05, periods: int = 5, samples: int = 100
 ) -> xr.Dataset:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,7 +10,9 @@ import numpy as np
 from scipy.optimize import root
 
 from birdmb._typing import FloatArray
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError, BirdmbError
+from birdmb.summary import Fact, Summarised, shortened
 from birdmb.topology import Bird
 from birdmb.topology.attachments import BODY
 from birdmb.wing.outline import span_and_area
@@ -43,8 +46,8 @@ class _Size:
     notes: tuple[str, str]  # on span and area, and on the frequency
 
 
-@dataclass(frozen=True)
-class ScaledBird:
+@dataclass(frozen=True, repr=False)
+class ScaledBird(Summarised):
     """A bird scaled to another size.
 
     Attributes:
@@ -55,7 +58,15 @@ class ScaledBird:
     bird: Bird
     assumptions: tuple[str, ...]
 
+    def _title(self) -> str:
+        return self.bird.name
 
+    def _summary(self) -> Iterator[Fact]:
+        yield from self.bird._summary()
+        yield from (Fact("", shortened(sentence)) for sentence in self.assumptions)
+
+
+@checked
 def scale_bird(
     like: Bird,
     mass: float | None = None,

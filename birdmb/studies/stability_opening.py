@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError, BirdmbError
 from birdmb.models import RigidModel
 from birdmb.studies.cycles import ModelFactory
@@ -15,13 +16,14 @@ from birdmb.studies.tail import ACCURACY, OPENING
 from birdmb.studies.trim import Trim, TrimGuess, trim_flight
 from birdmb.studies.trim_defaults import default_parameters
 from birdmb.studies.zero_curve import ZeroCurve, trace_zero
+from birdmb.summary import Summarised
 from birdmb.topology import Bird
 
 _OPENING_STEP = 2.5
 
 
-@dataclass(frozen=True)
-class StabilityOpening:
+@dataclass(frozen=True, repr=False)
+class StabilityOpening(Summarised):
     """Where |Lambda|max = 1 on level flights, over a parameter of the gait and the opening.
 
     Attributes:
@@ -38,6 +40,7 @@ class StabilityOpening:
     curves: tuple[ZeroCurve, ...]
 
 
+@checked
 def stability_openings(
     bird: Bird,
     across: Mapping[str, tuple[float, float]],

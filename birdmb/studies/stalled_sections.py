@@ -9,12 +9,13 @@ import xarray as xr
 
 from birdmb._typing import FloatArray
 from birdmb.models import FlightCycle
+from birdmb.summary import Summarised
 
 STALLED = 0.5  # of the chord: below it flow is attached over less
 
 
-@dataclass(frozen=True)
-class StalledSection:
+@dataclass(frozen=True, repr=False)
+class StalledSection(Summarised):
     """A section over which flow is separated from more than half of the chord in part of the beat.
 
     `str()` of it says where, when and how far.

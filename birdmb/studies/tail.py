@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from birdmb._typing import FloatArray
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError, TopologyError
 from birdmb.models import RigidModel
 from birdmb.studies.cycles import ModelFactory
@@ -56,6 +57,7 @@ def tail_ranges(bird: Bird) -> dict[str, list[float]]:
     return ranges | {OPENING: _OPENINGS.tolist()}
 
 
+@checked
 def tail_study(
     bird: Bird,
     store: str | PathLike[str],

@@ -10,12 +10,13 @@ import xarray as xr
 
 from birdmb._typing import BoolArray, FloatArray
 from birdmb.studies.tail import OPENING, VALID, within_limits
+from birdmb.summary import Summarised
 
 _SPEED_STEP = 0.5  # m/s
 
 
-@dataclass(frozen=True)
-class PriceOfStability:
+@dataclass(frozen=True, repr=False)
+class PriceOfStability(Summarised):
     """The cheapest flights at a speed: of all within the limits, and of the stable ones.
 
     Attributes:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import pairwise
@@ -13,6 +13,7 @@ import numpy.typing as npt
 from scipy.optimize import least_squares, root_scalar
 
 from birdmb._typing import FloatArray
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError, OrbitError, StateError
 from birdmb.models import FlightCycle, RigidModel
 from birdmb.orbits import FloquetResult
@@ -20,6 +21,7 @@ from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.errors import TrimError
 from birdmb.studies.trim_defaults import default_parameters
 from birdmb.studies.trim_search import TrimSearch
+from birdmb.summary import Fact, Summarised
 from birdmb.topology import Bird
 
 _STEPS = 25
@@ -27,8 +29,8 @@ _GRID = 9
 _DIFFERENCE = 1e-5  # of the distance between the bounds; cycles are known to about 1e-9
 
 
-@dataclass(frozen=True)
-class Trim:
+@dataclass(frozen=True, repr=False)
+class Trim(Summarised):
     """A trimmed flight.
 
     Attributes:
@@ -47,9 +49,19 @@ class Trim:
     cycles: int
     from_guess: bool
 
+    def _title(self) -> str:
+        return self.bird.name
 
-@dataclass(frozen=True)
-class TrimGuess:
+    def _summary(self) -> Iterator[Fact]:
+        for name, value in self.values.items():
+            yield Fact(name, f"{value:.6g}")
+        yield Fact("residual", f"{self.residual:.1e}", "m/s")
+        yield from self.cycle._summary()
+
+
+@checked
+@dataclass(frozen=True, repr=False)
+class TrimGuess(Summarised):
     """A trimmed flight of a similar bird, to start from.
 
     Attributes:
@@ -62,6 +74,7 @@ class TrimGuess:
     orbit: npt.ArrayLike | FloquetResult | None = None
 
 
+@checked
 def trim_flight(
     bird: Bird,
     parameters: Mapping[str, tuple[float, float]] | None = None,

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from birdmb._typing import FloatArray
+from birdmb.arguments import checked
 from birdmb.models import FlightCycle, Loads
 from birdmb.models.wing_model import BODY_STATES
 
@@ -22,6 +23,7 @@ _VARIABLES = {
 }
 
 
+@checked
 def tunnel_and_free_flight(cycle: FlightCycle) -> xr.Dataset:
     """Loads over a beat of the body held at its mean state, and along the limit cycle.
 

@@ -31,9 +31,12 @@ import numpy as np
 import xarray as xr
 
 from birdmb._typing import BoolArray, FloatArray
+from birdmb.arguments import checked
 from birdmb.models import FlightCycle
 from birdmb.models.loads_kernel import StackedWing
+from birdmb.quantities import VALIDITIES
 from birdmb.studies.stalled_sections import StalledSection, stall_sentence, stalled_sections
+from birdmb.summary import Fact, Summarised, facts_of
 from birdmb.wing.outline import areas_across, wing_outline
 
 if TYPE_CHECKING:
@@ -47,8 +50,8 @@ _ALIKE = 1e-6  # rad
 LARGEST_TAIL_ANGLE = float(np.radians(5.0))
 
 
-@dataclass(frozen=True)
-class ValidityViolation:
+@dataclass(frozen=True, repr=False)
+class ValidityViolation(Summarised):
     """One way in which a flight leaves the model's validity, and where and when it does so most.
 
     `str()` of it is a sentence.
@@ -96,8 +99,8 @@ class ValidityViolation:
         )
 
 
-@dataclass(frozen=True)
-class TailViolation:
+@dataclass(frozen=True, repr=False)
+class TailViolation(Summarised):
     """How a flight leaves the validity of the tail's slender-wing lift; `str()` is a sentence."""
 
     value: float
@@ -122,8 +125,8 @@ class TailViolation:
         )
 
 
-@dataclass(frozen=True)
-class Overlap:
+@dataclass(frozen=True, repr=False)
+class Overlap(Summarised):
     """How the wings reach into one another across the plane of symmetry; `str()` is a sentence."""
 
     value: float
@@ -148,8 +151,8 @@ class Overlap:
         )
 
 
-@dataclass(frozen=True)
-class Validity:
+@dataclass(frozen=True, repr=False)
+class Validity(Summarised):
     """How far a flight is from the limits of the quasi-steady model.
 
     Attributes:
@@ -176,6 +179,16 @@ class Validity:
     excesses: tuple[ValidityViolation | TailViolation | Overlap, ...]
     stalled: tuple[StalledSection, ...]
     cycle: FlightCycle
+
+    def _title(self) -> str:
+        return self.cycle.model.bird.name
+
+    def _summary(self) -> Iterator[Fact]:
+        within = "within the limits of the model"
+        yield Fact("", f"{len(self.excesses)} limits exceeded" if self.excesses else within)
+        yield from facts_of(self, *(quantity.name for quantity in VALIDITIES))
+        for excess in self.excesses:
+            yield Fact("beyond its limit", excess.quantity)
 
     @cached_property
     def strouhal_number(self) -> float:
@@ -217,6 +230,7 @@ class Validity:
         return plot_validity(self.data)
 
 
+@checked
 def assess_validity(
     cycle: FlightCycle,
     *,

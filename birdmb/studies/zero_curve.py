@@ -10,13 +10,14 @@ from scipy.optimize import root_scalar
 
 from birdmb._typing import FloatArray
 from birdmb.errors import BirdmbError
+from birdmb.summary import Summarised
 
 # What a function may raise where it has no value.
 _Undefined = (BirdmbError, ValueError)
 
 
-@dataclass(frozen=True)
-class ZeroCurve:
+@dataclass(frozen=True, repr=False)
+class ZeroCurve(Summarised):
     """Points on a curve, in order.
 
     Attributes:

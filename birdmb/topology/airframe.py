@@ -15,6 +15,8 @@ from birdmb.topology.parts import Part
 class Apex(Part):
     """The foremost point of the tail, from the body's centre of mass in the body frame."""
 
+    _table: ClassVar[str] = "tail.apex"
+
     x: Coordinate = Field(
         description="how far the tail's apex is ahead of the centre of mass (negative: behind), m"
     )
@@ -23,6 +25,8 @@ class Apex(Part):
 
 class Tail(Part):
     """A flat isosceles triangle that opens backwards from its apex, fixed to the body."""
+
+    _table: ClassVar[str] = "tail"
 
     angles: ClassVar[tuple[str, ...]] = ("opening", "incidence")
 
@@ -56,6 +60,8 @@ class Tail(Part):
 
 class Drag(Part):
     """Drag that the lifting line does not have; none unless it is asked for."""
+
+    _table: ClassVar[str] = "drag"
 
     profile_coefficient: Coefficient = Field(
         default=0.0, description="drag coefficient of the wing's sections, on their chord"

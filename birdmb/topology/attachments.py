@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from pydantic import AfterValidator, BeforeValidator, Field
@@ -22,6 +22,8 @@ class Attachment(Part):
 
     On the body and beside its plane of symmetry there is one on each side.
     """
+
+    _table: ClassVar[str] = "attachments.{self.name}"
 
     name: Label = Field(description='name of the body, such as "head"', pattern=r"^[\w-]+$")
     on: Label = Field(description='what it is fixed to: "body" or a segment')

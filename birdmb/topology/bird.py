@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise
 from os import PathLike
@@ -13,12 +13,16 @@ from typing import Any, Self
 
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
+from birdmb.arguments import checked
 from birdmb.errors import TopologyError
+from birdmb.summary import Fact
+from birdmb.text import nearest
 from birdmb.topology.airframe import Drag, Tail
 from birdmb.topology.attachments import BODY, Attachment, body_with, segment_with
 from birdmb.topology.feathers import Feather
 from birdmb.topology.joints import Joint, Side
-from birdmb.topology.messages import Location, nearest, problem, shown, validated
+from birdmb.topology.messages import Location, problem, shown, validated
+from birdmb.topology.named import NamedParts
 from birdmb.topology.names import Label
 from birdmb.topology.numbers import Gravity
 from birdmb.topology.parts import (
@@ -60,28 +64,32 @@ class Bird(Part):
         description="segments of a wing from the shoulder outwards, a table each, as "
         "[segments.humerus]"
     )
-    joints: tuple[Joint, ...] = Field(
+    joints: NamedParts[Joint] = Field(
         description="joints from the body outwards, in order; joints = [] if there are none"
     )
-    feathers: tuple[Feather, ...] = Field(
+    feathers: NamedParts[Feather] = Field(
         default=(),
+        validate_default=True,
         description="feathers that span the wing, one at the shoulder and one at the last "
         "segment's end; or else sections do",
     )
-    sections: tuple[Section, ...] = Field(
+    sections: NamedParts[Section] = Field(
         default=(),
+        validate_default=True,
         description="sections that span the wing in place of feathers, one at the shoulder and one "
         "at the last segment's end",
     )
-    attachments: tuple[Attachment, ...] = Field(
-        default=(), description="further rigid bodies on the body or on segments"
+    attachments: NamedParts[Attachment] = Field(
+        default=(),
+        validate_default=True,
+        description="further rigid bodies on the body or on segments",
     )
     tail: Tail | None = Field(default=None, description="tail, a table; none if left out")
     drag: Drag = Field(default=Drag(), description="drag besides the induced one, a table")
 
     @field_validator("joints")
     @classmethod
-    def _chain(cls, joints: tuple[Joint, ...], info: ValidationInfo) -> tuple[Joint, ...]:
+    def _chain(cls, joints: NamedParts[Joint], info: ValidationInfo) -> NamedParts[Joint]:
         if twice := first_repeated(joint.name for joint in joints):
             raise problem(f"two joints are called {shown(twice)}; each needs a name of its own")
         for joint in joints:
@@ -105,15 +113,15 @@ class Bird(Part):
     @field_validator("feathers")
     @classmethod
     def _feathers_to_the_tip(
-        cls, feathers: tuple[Feather, ...], info: ValidationInfo
-    ) -> tuple[Feather, ...]:
+        cls, feathers: NamedParts[Feather], info: ValidationInfo
+    ) -> NamedParts[Feather]:
         return from_shoulder_to_tip(feathers, "feather", segment_names(info))
 
     @field_validator("sections")
     @classmethod
     def _sections_to_the_tip(
-        cls, sections: tuple[Section, ...], info: ValidationInfo
-    ) -> tuple[Section, ...]:
+        cls, sections: NamedParts[Section], info: ValidationInfo
+    ) -> NamedParts[Section]:
         ordered = from_shoulder_to_tip(sections, "section", segment_names(info))
         for section in ordered[:-1]:
             if section.chord == 0:
@@ -124,8 +132,8 @@ class Bird(Part):
     @field_validator("attachments")
     @classmethod
     def _on_what_there_is(
-        cls, attachments: tuple[Attachment, ...], info: ValidationInfo
-    ) -> tuple[Attachment, ...]:
+        cls, attachments: NamedParts[Attachment], info: ValidationInfo
+    ) -> NamedParts[Attachment]:
         if twice := first_repeated(one.name for one in attachments):
             raise problem(f"two are called {shown(twice)}; each needs a name of its own")
         if (known := segment_names(info)) is not None:
@@ -169,6 +177,27 @@ class Bird(Part):
                     )
         return self
 
+    def _dotted(self, key: str) -> str:
+        return key
+
+    def _summary(self) -> Iterator[Fact]:
+        yield Fact("mass", f"{self.total_mass:.4g}", "kg")
+        yield Fact("wingbeat", f"{self.gait.frequency:.4g}", "Hz")
+        yield Fact("segments", ", ".join(self.segments.names))
+        yield Fact("joints", str(len(self.joints)))
+        for joint in self.compliant_joints:
+            yield Fact("compliant", joint.name)
+        if self.feathers:
+            yield Fact("feathers", str(len(self.feathers)))
+        if self.hinged_feathers:
+            yield Fact("on hinges", str(len(self.hinged_feathers)))
+        if self.sections:
+            yield Fact("sections", str(len(self.sections)))
+        if self.attachments:
+            yield Fact("attachments", str(len(self.attachments)))
+        yield Fact("tail", "none" if self.tail is None else "yes")
+        yield Fact("air", self.air.wake)
+
     @property
     def profiles(self) -> tuple[Profile, ...]:
         """Profile of each section from the shoulder outwards, or one where they have none."""
@@ -185,11 +214,13 @@ class Bird(Part):
         """Whether all joints have the same values on both sides."""
         return all(joint.is_symmetric for joint in self.joints)
 
+    @checked
     def side(self, side: Side) -> Bird:
         """Return the symmetric bird whose joints have the values of one side on both."""
         if not any(joint.right or joint.left for joint in self.joints):
             return self
-        return self.model_copy(update={"joints": tuple(joint.on(side) for joint in self.joints)})
+        joints = NamedParts(joint.on(side) for joint in self.joints)
+        return self.model_copy(update={"joints": joints})
 
     @property
     def joint_names(self) -> tuple[str, ...]:
@@ -197,14 +228,14 @@ class Bird(Part):
         return tuple(joint.name for joint in self.joints)
 
     @property
-    def compliant_joints(self) -> tuple[Joint, ...]:
+    def compliant_joints(self) -> NamedParts[Joint]:
         """The joints that follow their driver through a spring and damper, in chain order."""
-        return tuple(joint for joint in self.joints if joint.mode == "compliant")
+        return NamedParts(joint for joint in self.joints if joint.mode == "compliant")
 
     @property
-    def hinged_feathers(self) -> tuple[Feather, ...]:
+    def hinged_feathers(self) -> NamedParts[Feather]:
         """The feathers on hinges, from the shoulder outwards."""
-        return tuple(feather for feather in self.feathers if feather.hinge)
+        return NamedParts(feather for feather in self.feathers if feather.hinge)
 
     @property
     def angle_names(self) -> tuple[str, ...]:
@@ -249,7 +280,7 @@ class Bird(Part):
             "body": body,
             "wing": self.wing.model_copy(update={"root": root}),
             "segments": Segments(segments),
-            "attachments": (),
+            "attachments": NamedParts(),
         }
         if self.tail is not None:
             apex = self.tail.apex
@@ -257,6 +288,7 @@ class Bird(Part):
             joined["tail"] = self.tail.model_copy(update={"apex": apex})
         return self.model_copy(update=joined)
 
+    @checked
     def joint(self, name: str) -> Joint:
         """Return the joint of that name; raise `TopologyError` if there is none."""
         for joint in self.joints:
@@ -295,6 +327,7 @@ class Bird(Part):
         """Return every dotted name that `value`, `with_values` and `--set` understand."""
         return tuple(self._places)
 
+    @checked
     def value(self, name: str) -> Any:
         """Return the value of a dotted name such as `"wing.root.x"` or `"forearm.roll.offset_deg"`.
 
@@ -304,6 +337,7 @@ class Bird(Part):
         place = place_of(name, self._places, self.name)
         return value_at(self._document(resolved=is_resolution(name)), place)
 
+    @checked
     def with_values(self, values: Mapping[str, Any]) -> Bird:
         """Return a bird with other values under dotted names, as `{"body.mass": 1.3}`.
 
@@ -317,6 +351,7 @@ class Bird(Part):
         changed = ", ".join(f"{name} = {shown(value)}" for name, value in values.items())
         return validated(type(self), document, f"{self.name} (with {changed})")
 
+    @checked
     def with_joint(self, name: str, **values: Any) -> Bird:
         """Return a bird with other values of one joint, as `stiffness=20` or `offset_deg=-5`.
 
@@ -325,6 +360,7 @@ class Bird(Part):
         self.joint(name)
         return self.with_values({f"{name}.{key}": value for key, value in values.items()})
 
+    @checked
     def save(
         self,
         path: str | PathLike[str],

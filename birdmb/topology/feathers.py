@@ -53,6 +53,8 @@ class Hinge(Part):
 class Feather(Part):
     """A straight feather rooted on a bone, following that bone and shares of joint angles."""
 
+    _table: ClassVar[str] = "feathers.{self.name}"
+
     angles: ClassVar[tuple[str, ...]] = ("rest_angle",)
 
     name: Label = Field(description='name of the feather, such as "1"', pattern=r"^[\w-]+$")

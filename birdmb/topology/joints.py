@@ -142,6 +142,8 @@ class Joint(Part):
     Driver, spring and damper may be others on one side. The sense of rotation is mirrored.
     """
 
+    _table: ClassVar[str] = "{self.name}"
+
     model_config = ConfigDict(json_schema_extra=_tell_of_file)
     angles: ClassVar[tuple[str, ...]] = _ANGLES
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from os import PathLike
 
+from birdmb.arguments import checked
 from birdmb.topology.bird import Bird
 from birdmb.topology.documents import read_document
 from birdmb.topology.messages import validated
 from birdmb.topology.shipped import topology_file
 
 
+@checked
 def load_bird(bird: str | PathLike[str]) -> Bird:
     """Read and validate a topology file (TOML), or a bird of the package by its name.
 

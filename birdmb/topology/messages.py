@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import difflib
 import json
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any, TypeVar, get_args
 
 from pydantic import BaseModel, RootModel, ValidationError
@@ -12,6 +11,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails, PydanticCustomError
 
 from birdmb.errors import TopologyError
+from birdmb.text import nearest
 from birdmb.topology.numbers import OUT_OF_RANGE
 
 Location = tuple[str | int, ...]
@@ -62,13 +62,6 @@ def shown(value: object) -> str:
         return "what is too long to show"
     text = {"NaN": "nan", "Infinity": "inf", "-Infinity": "-inf"}.get(text, text)
     return text if len(text) <= 80 else text[:77] + "..."
-
-
-def nearest(word: str, known: Iterable[str]) -> str:
-    """Return up to three known words like `word`, the most similar first."""
-    known = list(known)
-    similar = difflib.get_close_matches(word, known)
-    return ", ".join(similar or difflib.get_close_matches(word, known, cutoff=0.0))
 
 
 def validated(model: type[ModelT], document: Mapping[str, Any], origin: str) -> ModelT:

@@ -6,15 +6,17 @@ Right wing; the left one is its mirror image. Body frame: x forward, y right, z 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import Any, ClassVar, Literal
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from birdmb._typing import FloatArray
+from birdmb.errors import ImmutableError, no_attribute
+from birdmb.summary import Fact, Summarised, brief
 from birdmb.topology.inertia import moments_by_key, tell_of_tensor
-from birdmb.topology.messages import problem
+from birdmb.topology.messages import problem, shown
 from birdmb.topology.numbers import (
     Area,
     Coefficient,
@@ -29,13 +31,64 @@ from birdmb.topology.numbers import (
 )
 
 NO_DIRECTION = 1e-100  # of its square little is left
+OF_PYDANTIC = {name for name in dir(BaseModel) if not name.startswith("__")}
 
 
-class Part(BaseModel):
+class Part(Summarised, BaseModel):
     """A table of the topology file. Keys in `angles` may be given in degrees as `<key>_deg`."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
     angles: ClassVar[tuple[str, ...]] = ()
+    _table: ClassVar[str] = "..."  # dotted name of the table; dots where the part does not know it
+
+    def __dir__(self) -> list[str]:
+        """Names of the part's own, for completion: without those of pydantic's base class."""
+        return [name for name in super().__dir__() if name not in OF_PYDANTIC]
+
+    # Hidden from type checkers, which would else take any name for one of a part's.
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            """Raise `UnknownNameError` for a name that the part has not."""
+            if name.startswith("_"):
+                return super().__getattr__(name)
+            raise no_attribute(type(self).__name__, name, dir(self))
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Raise `ImmutableError`."""
+        raise ImmutableError(f"{self._unchangeable} {self._changed_by(name, shown(value))}")
+
+    def __delattr__(self, name: str) -> None:
+        """Raise `ImmutableError`."""
+        raise ImmutableError(f"{self._unchangeable} {self._changed_by(name, 'VALUE')}")
+
+    @property
+    def _unchangeable(self) -> str:
+        return "A bird and its parts are immutable; a variation is a new bird:"
+
+    def _changed_by(self, key: str, value: str) -> str:
+        return f'bird.with_values({{"{self._dotted(key)}": {value}}}).'
+
+    def _dotted(self, key: str) -> str:
+        """Dotted name of one of the part's values, as `Bird.with_values` takes it."""
+        return f"{self._table.format(self=self)}.{key}"
+
+    def __str__(self) -> str:
+        """Return the same as for a console."""
+        return repr(self)
+
+    def _title(self) -> str:
+        return str(getattr(self, "name", ""))
+
+    def _summary(self) -> Iterable[Fact]:
+        values = {key: value for key, value in self if key != "name" and value is not None}
+        known = type(self).model_fields
+        others = {key: value for key, value in values.items() if value != known[key].default}
+        for key, value in (others or values).items():
+            if key in self.angles and isinstance(value, float):
+                yield Fact(key, f"{math.degrees(value):.6g}", "°")
+            else:
+                yield Fact(key, brief(value))
 
     @model_validator(mode="before")
     @classmethod
@@ -68,6 +121,8 @@ def _in_radians(value: Any) -> Any:
 class Air(Part):
     """The air the bird flies in."""
 
+    _table: ClassVar[str] = "air"
+
     density: Density = Field(default=1.225, description="density of the air, kg/m3")
     kinematic_viscosity: Viscosity = Field(
         default=1.5e-5, description="viscosity over density, m2/s; friction of tail and body"
@@ -85,11 +140,15 @@ class Air(Part):
 class Gait(Part):
     """What all joint drivers have in common."""
 
+    _table: ClassVar[str] = "gait"
+
     frequency: Frequency = Field(description="wingbeats per second, Hz")
 
 
 class Body(Part):
     """The body without its wings."""
+
+    _table: ClassVar[str] = "body"
 
     model_config = ConfigDict(json_schema_extra=tell_of_tensor)
 

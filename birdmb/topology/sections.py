@@ -20,6 +20,8 @@ class Section(Part):
     directions of both bones.
     """
 
+    _table: ClassVar[str] = "sections.{self.name}"
+
     angles: ClassVar[tuple[str, ...]] = ("twist",)
 
     name: Label = Field(description='name of the section, such as "tip"', pattern=r"^[\w-]+$")

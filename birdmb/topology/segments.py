@@ -10,11 +10,14 @@ from typing import Annotated
 
 from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, RootModel
 
+from birdmb.errors import UnknownKeyError, no_attribute
+from birdmb.summary import Fact, Summarised
+from birdmb.text import nearest
 from birdmb.topology.inertia import Tensor, from_diagonal, possible_inertia
 from birdmb.topology.messages import problem, shown
 from birdmb.topology.names import Label
 from birdmb.topology.numbers import Coordinate, Length, MassOrNone
-from birdmb.topology.parts import Part
+from birdmb.topology.parts import OF_PYDANTIC, Part
 
 
 class Segment(Part):
@@ -44,7 +47,7 @@ def _named(segments: dict[str, Segment]) -> dict[str, Segment]:
     return segments
 
 
-class Segments(RootModel[Annotated[dict[Label, Segment], AfterValidator(_named)]]):
+class Segments(Summarised, RootModel[Annotated[dict[Label, Segment], AfterValidator(_named)]]):
     """The segments of a wing by name, from the shoulder outwards.
 
     `segments["hand"]` and `segments.hand` are the same; iteration goes over the names.
@@ -53,15 +56,36 @@ class Segments(RootModel[Annotated[dict[Label, Segment], AfterValidator(_named)]
     model_config = ConfigDict(frozen=True)
 
     def __getitem__(self, name: str) -> Segment:
-        """Return the segment of that name."""
+        """Return the segment of that name; raise `UnknownKeyError` if there is none."""
+        if name not in self.root:
+            known = nearest(str(name), self.root)
+            raise UnknownKeyError(f"no segment is called {shown(name)}; the nearest: {known}.")
         return self.root[name]
 
     def __getattr__(self, name: str) -> Segment:
-        """Return the segment of that name."""
-        try:
-            return self.__dict__["root"][name]
-        except KeyError:
-            raise AttributeError(name) from None
+        """Return the segment of that name; raise `UnknownNameError` if there is none."""
+        if name.startswith("_"):
+            raise AttributeError(name)
+        segments: dict[str, Segment] = self.__dict__["root"]
+        if name not in segments:
+            raise no_attribute(type(self).__name__, name, dir(self))
+        return segments[name]
+
+    def __dir__(self) -> list[str]:
+        """Names for completion: the segments, and what is not of pydantic's base class."""
+        own = [name for name in super().__dir__() if name not in OF_PYDANTIC | {"root"}]
+        return [*own, *filter(str.isidentifier, self.root)]
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self.root)
+
+    def __str__(self) -> str:
+        """Return the same as for a console."""
+        return repr(self)
+
+    def _summary(self) -> Iterator[Fact]:
+        for name, segment in self.root.items():
+            yield Fact(name, f"{segment.length:.4g} m, {segment.mass:.4g} kg")
 
     def __iter__(self) -> Iterator[str]:  # type: ignore[override]
         """Iterate over the names, from the shoulder outwards."""

@@ -7,7 +7,8 @@ from os import PathLike, fspath
 from pathlib import Path
 
 from birdmb.errors import TopologyError
-from birdmb.topology.messages import nearest, shown
+from birdmb.text import nearest
+from birdmb.topology.messages import shown
 
 _PACKAGE = Path(__file__).parents[1]
 _SUFFIX = ".toml"

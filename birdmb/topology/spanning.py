@@ -8,8 +8,10 @@ from typing import TypeVar
 
 from pydantic import ValidationInfo
 
+from birdmb.text import nearest
 from birdmb.topology.feathers import Feather
-from birdmb.topology.messages import nearest, problem, shown
+from birdmb.topology.messages import problem, shown
+from birdmb.topology.named import NamedParts
 from birdmb.topology.sections import Section
 from birdmb.topology.segments import Segments
 
@@ -34,8 +36,8 @@ def require_segment(name: str, known: Sequence[str], item: int, key: str) -> Non
 
 
 def from_shoulder_to_tip(
-    chords: tuple[ChordT, ...], kind: str, segments: tuple[str, ...] | None
-) -> tuple[ChordT, ...]:
+    chords: NamedParts[ChordT], kind: str, segments: tuple[str, ...] | None
+) -> NamedParts[ChordT]:
     """Feathers or sections in their order along the wing, which must reach from end to end."""
     if twice := first_repeated(one.name for one in chords):
         raise problem(f"two {kind}s are called {shown(twice)}; each needs a name of its own")
@@ -47,7 +49,7 @@ def from_shoulder_to_tip(
     def place(one: ChordT) -> float:
         return segments.index(one.bone) + one.position
 
-    ordered = tuple(sorted(chords, key=place))
+    ordered = NamedParts(sorted(chords, key=place))
     for inner, outer in pairwise(ordered):
         if place(inner) == place(outer):
             raise problem(

@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 
 from birdmb.errors import TopologyError
+from birdmb.text import nearest
 from birdmb.topology.attachments import Attachment
 from birdmb.topology.drivers import Harmonic
 from birdmb.topology.joints import SIDES, Joint, JointSide
-from birdmb.topology.messages import Location, nearest, shown
+from birdmb.topology.messages import Location, shown
 from birdmb.topology.parts import Part
 from birdmb.topology.segments import Segments
 from birdmb.topology.wings import Wing

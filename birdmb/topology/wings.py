@@ -46,6 +46,8 @@ _STALL_ANGLE = ("stall", "angle")
 class Discretisation(Part):
     """How finely, and by which construction, the lifting line is computed."""
 
+    _table: ClassVar[str] = "wing.discretisation"
+
     scheme: Literal["orthogonal", "one-step"] = Field(
         description="construction of the lifting line: orthogonal, or one-step as published"
     )
@@ -85,6 +87,8 @@ def _kind_of_discretisation(value: object) -> str | None:
 
 class Root(Part):
     """The right shoulder joint, from the body's centre of mass in the body frame."""
+
+    _table: ClassVar[str] = "wing.root"
 
     x: Coordinate = Field(description="how far the shoulder is ahead of the centre of mass, m")
     y: Distance = Field(description="how far the shoulder is to the right, m")
@@ -229,6 +233,8 @@ class Profile(Part):
 
 class Wing(Part):
     """Where the wing is attached, how thick it is and how finely it is computed."""
+
+    _table: ClassVar[str] = "wing"
 
     root: Root = Field(description="position of the right shoulder, a table of x, y and z in m")
     half_thickness: Distance = Field(

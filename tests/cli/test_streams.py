@@ -8,7 +8,6 @@ from pathlib import Path
 
 import pytest
 
-from birdmb.cli.console import output
 from birdmb.errors import OutputError
 
 from .conftest import HANGS, IBIS, QUICK
@@ -72,13 +71,6 @@ def test_a_reader_that_goes_is_no_traceback():
     os.close(write)
     assert result.returncode != 0
     assert result.stderr == b""
-
-
-@pytest.mark.parametrize("columns", ["1", "20"])
-def test_a_narrow_terminal_cuts_no_digits(run, monkeypatch, columns):
-    monkeypatch.setenv("COLUMNS", columns)
-    assert output().width == 80
-    assert run("check", IBIS).exit_code == 0
 
 
 @pytest.mark.long

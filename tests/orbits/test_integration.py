@@ -52,7 +52,7 @@ def test_steps_are_those_of_scipy():
     ("options", "words"),
     [
         ({"rtol": 0.0}, "rtol must be from"),
-        ({"rtol": float("nan")}, "rtol must be from"),
+        ({"rtol": float("nan")}, "rtol must be a number"),
         ({"rtol": 1.0}, "rtol must be from"),
         ({"atol": -1.0}, "atol must hold positive"),
         ({"atol": [1e-12, 1e-12]}, "atol has shape"),
@@ -60,8 +60,8 @@ def test_steps_are_those_of_scipy():
         ({"state_scale": [np.inf]}, "state_scale must hold positive"),
         ({"guess": [np.nan]}, "guess must hold finite"),
         ({"period": np.inf}, "period must be positive"),
-        ({"period": np.nan}, "period must be positive"),
-        ({"integrator": "RK4"}, "integrator must be one of"),
+        ({"period": np.nan}, "period must be a number"),
+        ({"integrator": "RK4"}, 'integrator must be "DOP853"'),
         ({"most_steps": 0}, "most_steps"),
     ],
 )
@@ -87,9 +87,11 @@ def test_wrong_values_of_a_right_hand_side(rhs, error, words):
 @pytest.mark.parametrize("tolerance", [0.0, -1e-9, 1.0, float("nan"), float("inf")])
 def test_a_tolerance_that_takes_anything_for_an_orbit_is_refused(tolerance):
     model = OdeModel(lambda _t, x: -x, ("x",), period=1.0)
-    with pytest.raises(ArgumentError, match=r"tolerance must be positive and at most 0\.01"):
+    with pytest.raises(
+        ArgumentError, match=r"tolerance must be (positive and at most 0\.01|a number)"
+    ):
         find_limit_cycle(model, [0.1], tolerance=tolerance)
-    with pytest.raises(ArgumentError, match=r"closure_tolerance must be positive"):
+    with pytest.raises(ArgumentError, match=r"closure_tolerance must be (positive|a number)"):
         floquet(model, [0.1], closure_tolerance=tolerance)
 
 
@@ -98,7 +100,7 @@ def test_a_tolerance_that_takes_anything_for_an_orbit_is_refused(tolerance):
     [
         ({"segments": 100_000}, "at most 1000"),
         ({"segments": 2.5}, "whole number"),
-        ({"start_time": np.nan}, "start_time must be finite"),
+        ({"start_time": np.nan}, "start_time must be a number"),
         ({"max_iterations": 0}, "max_iterations"),
     ],
 )

@@ -34,7 +34,7 @@ def test_it_is_the_same_from_either_flight(effect):
 def test_it_says_what_changes(effect):
     assert effect.multiplier_change == pytest.approx(0.035, abs=0.005)
     assert not effect.changes_verdict
-    assert "leaves the verdict as it is: with it unstable, |Λ|max 1.4" in str(effect)
+    assert "leaves the verdict as it is: with it unstable, |Lambda|max 1.4" in str(effect)
 
 
 def test_the_command_line_says_it_too(run):

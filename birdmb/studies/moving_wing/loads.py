@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from birdmb._typing import FloatArray
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError
 from birdmb.studies.moving_wing.memory import lags_of_start, periodic_lags, settled_lags
 from birdmb.studies.moving_wing.motion import WingMotion
 from birdmb.studies.moving_wing.moving import InstantLoads, MovingWing
 from birdmb.studies.moving_wing.plane_wing import PlaneWing
+from birdmb.summary import Fact, Summarised
 
 Wake = Literal["quasi-steady", "unsteady"]
 _FEWEST_INSTANTS, _FEWEST_ELEMENTS = 3, 4
 
 
-@dataclass(frozen=True)
-class MovingWingLoads:
+@dataclass(frozen=True, repr=False)
+class MovingWingLoads(Summarised):
     """Loads of a moving wing at K instants, of both halves unless another thing is said.
 
     Attributes:
@@ -64,6 +67,15 @@ class MovingWingLoads:
     angle_of_attack: FloatArray
     sectional_lift: FloatArray
     lags: FloatArray
+
+    def _summary(self) -> Iterator[Fact]:
+        yield Fact("wake", self.wake)
+        yield Fact("speed", f"{self.speed:.6g}", "m/s")
+        yield Fact("mean lift coefficient", f"{self.mean_lift_coefficient:.4g}")
+        yield Fact("mean thrust coefficient", f"{self.mean_thrust_coefficient:.4g}")
+        yield Fact("mean power coefficient", f"{self.mean_power_coefficient:.4g}")
+        yield Fact("instants", str(len(self.times)))
+        yield Fact("elements", str(len(self.positions)))
 
     @property
     def dynamic_area(self) -> float:
@@ -113,6 +125,7 @@ class MovingWingLoads:
         return np.asarray(share * np.tensordot(turning, values, axes=(0, 0)) / len(self.times))
 
 
+@checked
 def moving_wing_loads(
     wing: PlaneWing,
     motion: WingMotion,
@@ -151,8 +164,6 @@ def moving_wing_loads(
             unknown, or flow would separate in a quasi-steady one.
         StateError: the wake of a start cannot be integrated.
     """
-    if wake not in get_args(Wake):
-        raise ArgumentError(f'wake must be "quasi-steady" or "unsteady", not "{wake}".')
     if wing.stall is not None and wake == "quasi-steady":
         raise ArgumentError(
             'a wing that stalls needs wake="unsteady": how far flow has separated is a memory.'

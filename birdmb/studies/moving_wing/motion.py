@@ -9,7 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from birdmb._typing import FloatArray
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError
+from birdmb.summary import Summarised
 
 Series = Sequence[complex]
 
@@ -22,8 +24,9 @@ class Course(NamedTuple):
     acceleration: FloatArray
 
 
-@dataclass(frozen=True)
-class WingMotion:
+@checked
+@dataclass(frozen=True, repr=False)
+class WingMotion(Summarised):
     """Periodic heaving, pitching and flapping of a wing.
 
     Each is given by complex amplitudes a_0, a_1, ... of the series Re(sum over m of

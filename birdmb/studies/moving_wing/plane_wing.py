@@ -9,15 +9,18 @@ from typing import Self
 import numpy as np
 
 from birdmb._typing import FloatArray
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError
+from birdmb.summary import Summarised
 from birdmb.topology import Profile, Stall
 from birdmb.wing.shape import WingShape
 
 _ELLIPSE_SECTIONS = 400  # straight between them: the area is short of the ellipse's by 3e-6
 
 
-@dataclass(frozen=True)
-class PlaneWing:
+@checked
+@dataclass(frozen=True, repr=False)
+class PlaneWing(Summarised):
     """A rigid wing without dihedral, symmetric about its root, straight between its sections.
 
     Attributes:

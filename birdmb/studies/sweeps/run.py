@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from os import PathLike
 from typing import Any
 
+from birdmb.arguments import checked
 from birdmb.models import MultibodyModel
 from birdmb.orbits.newton import Damping
 from birdmb.orbits.search import ACCURACY, TOLERANCE, SearchMethod
@@ -23,13 +24,14 @@ from birdmb.studies.sweeps.settings import Search, Trimming, identity
 from birdmb.studies.sweeps.store import Store, place_text
 from birdmb.studies.sweeps.study import Study
 from birdmb.studies.sweeps.tasks import KEPT_FOR_NEIGHBOURS, Guess, Outcome, Task
+from birdmb.summary import Summarised
 from birdmb.topology import Bird
 
 _NAMED = 4
 
 
-@dataclass(frozen=True)
-class Finished:
+@dataclass(frozen=True, repr=False)
+class Finished(Summarised):
     """A point that is finished and stored.
 
     Attributes:
@@ -45,6 +47,7 @@ class Finished:
     total: int
 
 
+@checked
 def sweep(
     bird: Bird,
     vary: Mapping[str, Sequence[Any]],

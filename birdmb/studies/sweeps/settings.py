@@ -9,19 +9,21 @@ from functools import partial
 from importlib.metadata import version
 from typing import Any, get_args
 
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError
 from birdmb.orbits.errors import require_tolerance
 from birdmb.orbits.newton import Damping
 from birdmb.orbits.search import SearchMethod
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.sweeps.errors import SweepError
+from birdmb.summary import Summarised
 from birdmb.topology import Bird
 
 _NAMED = 3
 
 
-@dataclass(frozen=True)
-class Search:
+@dataclass(frozen=True, repr=False)
+class Search(Summarised):
     """How limit cycles are searched for; see `find_limit_cycle`."""
 
     tolerance: float
@@ -45,8 +47,9 @@ class Search:
                 raise ArgumentError(f"{name} must be 1 or more, not {getattr(self, name)}.")
 
 
-@dataclass(frozen=True)
-class Trimming:
+@checked
+@dataclass(frozen=True, repr=False)
+class Trimming(Summarised):
     """How the flight of each point is trimmed; see `trim_flight`.
 
     Attributes:

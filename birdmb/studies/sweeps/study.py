@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from importlib.metadata import version
 from os import PathLike
@@ -13,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 import xarray as xr
 
+from birdmb.arguments import checked
 from birdmb.datafiles import family_attributes
 from birdmb.quantities import BY_NAME, Quantity
 from birdmb.studies.sweeps.contents import FORMAT, Contents
@@ -21,6 +23,7 @@ from birdmb.studies.sweeps.grid import Grid, Place, Value
 from birdmb.studies.sweeps.jumps import sheet_jumps
 from birdmb.studies.sweeps.store import read
 from birdmb.studies.sweeps.tasks import Outcome
+from birdmb.summary import Fact, Summarised, brief, shortened
 from birdmb.topology import Bird
 
 if TYPE_CHECKING:
@@ -52,8 +55,8 @@ _OTHERS = (
 )
 
 
-@dataclass(frozen=True)
-class Study:
+@dataclass(frozen=True, repr=False)
+class Study(Summarised):
     """A sweep as its store held it when it was opened.
 
     Attributes:
@@ -70,7 +73,23 @@ class Study:
     parameters: Mapping[str, tuple[Value, ...]]
     outcomes: Mapping[Place, Outcome]
 
+    def _title(self) -> str:
+        return self.bird.name
+
+    def _summary(self) -> Iterator[Fact]:
+        yield Fact("finished points", f"{len(self.outcomes)} of {self.total}")
+        yield Fact("without a cycle", str(len(self.failures)))
+        for verdict, count in Counter(
+            outcome.result["stability"] for outcome in self.outcomes.values() if outcome.result
+        ).items():
+            yield Fact(verdict, str(count))
+        for name, values in self.parameters.items():
+            yield Fact(name, f"{brief(values[0])} to {brief(values[-1])}, {len(values)} values")
+        yield Fact("model", shortened(str(self.identity["model"])))
+        yield Fact("store", shortened(self.path.name))
+
     @classmethod
+    @checked
     def open(cls, store: str | PathLike[str]) -> Study:
         """Read a store, also one that a sweep is filling at the same time.
 

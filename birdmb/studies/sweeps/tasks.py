@@ -12,6 +12,7 @@ from birdmb._typing import FloatArray
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.sweeps.grid import Value
 from birdmb.studies.sweeps.settings import Search, Trimming
+from birdmb.summary import Summarised
 from birdmb.topology import Bird
 
 KEPT_FOR_NEIGHBOURS = (
@@ -60,8 +61,8 @@ class Task:
     keep_to_sheet: bool = False
 
 
-@dataclass(frozen=True)
-class Outcome:
+@dataclass(frozen=True, repr=False)
+class Outcome(Summarised):
     """What became of a point.
 
     Attributes:
