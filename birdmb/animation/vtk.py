@@ -35,6 +35,7 @@ def write_instant(stage: Stage, path: Path, phase: float) -> list[Path]:
     Raises:
         OutputError: VTK is not installed, or a file cannot be written.
     """
+    _require_vtk()
     frame = round(phase * stage.scenes[0].frames_per_beat)
     return _write_frame(stage, path, frame)
 
@@ -44,12 +45,12 @@ def write_series(stage: Stage, path: Path) -> list[Path]:
 
     The times are those of the first bird. Raises as `write_instant`.
     """
-    times = stage.scenes[0].times
+    _require_vtk()
+    folder = path.with_suffix("")
+    make_directory(folder)
     pieces, entries = list[Path](), []
-    for k, time in enumerate(times.tolist()):
-        name = path.with_suffix("") / f"{path.stem}_{k:04}.vtm"
-        if k == 0:
-            make_directory(name.parent)
+    for k, time in enumerate(stage.scenes[0].times.tolist()):
+        name = folder / f"{path.stem}_{k:04}.vtm"
         pieces += _write_frame(stage, name, k)
         inside = quoteattr(f"{path.stem}/{name.name}")
         entries.append(f'    <DataSet timestep="{time:.9g}" part="0" file={inside}/>')
@@ -58,12 +59,17 @@ def write_series(stage: Stage, path: Path) -> list[Path]:
     return [write_whole(path, content.encode()), *pieces]
 
 
-def _write_frame(stage: Stage, path: Path, frame: int) -> list[Path]:
-    """Write one frame; return the file, then those of its blocks."""
+def _require_vtk() -> None:
     try:
-        from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataWriter  # noqa: PLC0415 - an extra
+        import vtkmodules.vtkIOXML  # noqa: PLC0415, F401 - an extra
     except ImportError:
         raise OutputError(_MISSING) from None
+
+
+def _write_frame(stage: Stage, path: Path, frame: int) -> list[Path]:
+    """Write one frame; return the file, then those of its blocks."""
+    from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataWriter  # noqa: PLC0415 - an extra
+
     with tempfile.TemporaryDirectory() as scratch:
         draft = Path(scratch) / path.name
         writer = vtkXMLMultiBlockDataWriter()
