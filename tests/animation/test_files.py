@@ -1,6 +1,7 @@
 """Pages, films and files for ParaView: whole, moving, and read back."""
 
 import html.parser
+import itertools
 import re
 import sys
 import xml.etree.ElementTree as ET
@@ -84,7 +85,7 @@ def test_a_gif_moves(tail_cycle, tmp_path):
         for k in range(film.n_frames):
             film.seek(k)
             pictures.append(np.asarray(film.convert("RGB"), dtype=int))
-    for one, other in zip(pictures, pictures[1:], strict=False):
+    for one, other in itertools.pairwise(pictures):
         assert (np.abs(one - other).max(axis=2) > 30).mean() > 1e-3
 
 
@@ -114,22 +115,19 @@ def test_without_vtk_a_sentence_says_what_to_do(moving, tmp_path, monkeypatch):
 def blocks_of(path):
     """Blocks of the first bird in a multiblock file, by name."""
     io = pytest.importorskip("vtkmodules.vtkIOXML")
-    from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
-
+    model = pytest.importorskip("vtkmodules.vtkCommonDataModel")
     reader = io.vtkXMLMultiBlockDataReader()
     reader.SetFileName(str(path))
     reader.Update()
     bird = reader.GetOutput().GetBlock(0)
-    name = vtkCompositeDataSet.NAME()
+    name = model.vtkCompositeDataSet.NAME()
     return {
         bird.GetMetaData(i).Get(name): bird.GetBlock(i) for i in range(bird.GetNumberOfBlocks())
     }
 
 
 def test_an_instant_for_paraview_reads_back(moving, tmp_path):
-    pytest.importorskip("vtkmodules")
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-
+    vtk_to_numpy = pytest.importorskip("vtkmodules.util.numpy_support").vtk_to_numpy
     path, *beside = moving.save(tmp_path / "flight.vtm", phase=0.5)
     assert {each.parent for each in beside} == {tmp_path / "flight"}
     blocks, (scene,) = blocks_of(path), moving.scenes

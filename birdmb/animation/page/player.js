@@ -16,7 +16,8 @@
   });
   flight.on("plotly_sliderstart", () => { again = false; });
   flight.on("plotly_animated", () => {
-    if (again && flight._fullLayout._currentFrame === String(last)) start(false);
+    // Only once plotly has ended its own loop, which would end the new one too.
+    if (again && flight._fullLayout._currentFrame === String(last)) setTimeout(start, 0, false);
   });
 
   // A drag is known to the figure only once it ends; a frame drawn before would undo it.
