@@ -30,6 +30,7 @@ from birdmb.cli.options import (
     number,
 )
 from birdmb.cli.outcome import InputError, reported
+from birdmb.cli.show_command import commands as show_command
 from birdmb.cli.study_commands import commands as study_commands
 
 _LARGEST = 1e15  # of all numbers in a topology file
@@ -380,4 +381,5 @@ def validate(
 
 app.add_typer(study_commands)
 app.add_typer(flight_commands)
+app.add_typer(show_command)
 app.add_typer(bird_commands)

@@ -120,7 +120,7 @@ def draw_wing_phases(figure: Figure | SubFigure, cycle: FlightCycle, views: Sequ
     for column, pose in enumerate(poses):
         title = f"t = {_fraction(pose.phase)}, {pose.motion}"
         axes.text(column * width, 0.3 * gap, title, ha="center", va="bottom")
-    _scale_bar(axes, -0.5 * width, top + 0.3 * gap, _round_below(_LONGEST_BAR * widest))
+    _scale_bar(axes, -0.5 * width, top + 0.3 * gap, round_below(_LONGEST_BAR * widest))
     colours = ScalarMappable(norm, _COLOURS)
     bar = figure.colorbar(colours, ax=axes, label="circulation Γ (m²/s)", shrink=0.7, pad=0.01)
     # Zero is white on any scale; what does not occur need not be shown.
@@ -218,7 +218,7 @@ def _scale_bar(axes: Axes, x: float, y: float, length: float) -> None:
     axes.text(x + length, y, label, ha="left", va="center", fontsize="small")
 
 
-def _round_below(length: float) -> float:
+def round_below(length: float) -> float:
     """The largest of 1, 2 and 5 times a power of ten that is not more than a length."""
     power = 10.0 ** np.floor(np.log10(length))
     return float(power * max(digit for digit in (1.0, 2.0, 5.0) if digit * power <= length))

@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -29,6 +29,8 @@ from birdmb.summary import Fact, facts_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from birdmb.animation.animation import Animation
 
 # Of flights that are well resolved both are below 1e-4.
 _LARGEST_IMBALANCE = 0.01
@@ -360,3 +362,21 @@ class FlightCycle(SteppedCycle):
         from birdmb.figures import plot_overview  # noqa: PLC0415 - it draws
 
         return plot_overview(self)
+
+    def animate(self, *beside: FlightCycle, **options: Any) -> Animation:
+        """The flight as a moving picture, alone or side by side with another one.
+
+        A notebook shows it; `save` writes it as .html, .mp4, .gif, .vtm or .pvd.
+
+        Args:
+            beside: another limit cycle of a bird, at the same phase of its beat.
+            options: `beats`, `frames` of each, `colour`, `mode`, `scale` and `view`, as of
+                `birdmb.animation.animation.animate`.
+
+        Raises:
+            ArgumentError: wrong numbers or names.
+            StateError: a flight along a mode leaves what the model can tell.
+        """
+        from birdmb.animation.animation import animate  # noqa: PLC0415 - it draws
+
+        return animate((self, *beside), **options)

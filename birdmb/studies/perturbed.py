@@ -104,9 +104,16 @@ def flight_path(times: FloatArray, states: FloatArray, motion: Motion = PLANAR) 
     times.
     """
     columns = 3 if motion.lateral.any() else 2
+    return path_in_space(times, motion.in_space(states))[0][:, :columns]
+
+
+def path_in_space(times: FloatArray, space: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Path (K, 3) m as of `flight_path`, X, height and Y, and heading (K,) rad, right positive.
+
+    Of states in space (K, 8) at `times` (K,) s. Both begin at zero.
+    """
     if times.size == 1:  # a flight that failed within its first beat
-        return np.zeros((1, columns))
-    space = motion.in_space(states)
+        return np.zeros((1, 3)), np.zeros(1)
 
     def integrated(rates: FloatArray) -> FloatArray:
         integral = make_interp_spline(times, rates, k=min(3, times.size - 1)).antiderivative()
@@ -116,4 +123,4 @@ def flight_path(times: FloatArray, states: FloatArray, motion: Motion = PLANAR) 
     heading = integrated(heading_rate(space))
     c, s = np.cos(heading), np.sin(heading)
     velocity = np.column_stack([forward * c - right * s, up, forward * s + right * c])
-    return integrated(velocity[:, :columns])
+    return integrated(velocity), heading

@@ -45,14 +45,19 @@ class WingOutline:
     """Whether the lifting line was found to its tolerance."""
 
     @property
+    def to_centre(self) -> FloatArray:
+        """(N + 1, 2, 3), the chords, the innermost one moved over the body to the centre line."""
+        chords = self.chords.copy()
+        chords[0, :, 1] = 0.0
+        return chords
+
+    @property
     def panels(self) -> FloatArray:
         """Surface of each element, (N, 4, 3): corners leading inner, outer, trailing outer, inner.
 
         The element at the root reaches over the body to the centre line.
         """
-        chords = self.chords.copy()
-        chords[0, :, 1] = 0.0
-        return _between(chords)
+        return _between(self.to_centre)
 
 
 def areas_across(
