@@ -11,7 +11,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from birdmb.figures.style import symbol
+from birdmb.figures.labels import state_symbol
 from birdmb.models import FlightCycle, GaussianGust
 from birdmb.quantities import DISSIPATORS
 from birdmb.reproduction.chapter6_flights import (
@@ -152,7 +152,7 @@ def _figure_6_4(out: Path, coarse: bool) -> None:
         column[-1].set_xlabel("time (s)")
     panels[0, -1].legend(frameon=False, fontsize="small")
     for axes, name in zip(panels[:, 0], _UNITS, strict=True):
-        axes.set_ylabel(f"{symbol(name)} ({_UNITS[name]})")
+        axes.set_ylabel(f"{state_symbol(name)} ({_UNITS[name]})")
     keep_figure(out, "figure 6.4", figure)
 
 

@@ -16,7 +16,7 @@ from matplotlib.patches import Circle
 
 from birdmb._typing import FloatArray
 from birdmb.errors import BirdmbError
-from birdmb.figures.style import symbol
+from birdmb.figures.labels import state_symbol
 from birdmb.models import FlightCycle
 from birdmb.reproduction.chapter8_birds import (
     TABLE_8_1,
@@ -73,7 +73,7 @@ def _overlay(springs: Sequence[Spring], name: str, out: Path, coarse: bool) -> N
         row[-1].plot(*_driver(one), "k--", lw=1, label="driver")
         row[-1].legend(frameon=False, fontsize="x-small")
         for axes, state in zip(row, _STATES, strict=True):
-            axes.set_ylabel(f"{symbol(state)} ({_STATES[state]})")
+            axes.set_ylabel(f"{state_symbol(state)} ({_STATES[state]})")
             axes.spines[["top", "right"]].set_visible(False)
     for axes in rows[-1]:
         axes.set(xlabel="t/T", xlim=(0.0, 1.0))
