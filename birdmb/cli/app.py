@@ -8,13 +8,14 @@ from typing import Annotated
 import typer
 
 from birdmb.cli.bird_commands import commands as bird_commands
-from birdmb.cli.drawing import ignore_settings
+from birdmb.cli.drawing import ignore_settings, requested_pictures
 from birdmb.cli.flight_commands import commands as flight_commands
 from birdmb.cli.options import (
     MOST_STEPS,
     Assignments,
     Damping,
     DampingChoice,
+    Formats,
     Json,
     Method,
     MethodChoice,
@@ -26,6 +27,7 @@ from birdmb.cli.options import (
     StepsPerBeat,
     Tolerance,
     Topology,
+    Width,
     number,
 )
 from birdmb.cli.outcome import InputError, reported
@@ -102,9 +104,11 @@ def cycle(
         Path | None,
         typer.Option(
             metavar="DIR",
-            help="Write the result (cycle.nc) and figures (PNG) into this directory.",
+            help="Write the result (cycle.nc) and figures into this directory.",
         ),
     ] = None,
+    formats: Formats = None,
+    width: Width = None,
     json: Json = False,
     segments: Segments = None,
     tolerance: Tolerance = 1e-9,
@@ -147,6 +151,7 @@ def cycle(
     with reported(as_json=json):
         from birdmb.cli.birds import requested_bird  # noqa: PLC0415 - slow to import
 
+        pictures = requested_pictures(formats, width)
         bird = requested_bird(topology, assignments or [])
 
         from birdmb.cli.cycle import run  # noqa: PLC0415 - not before the bird is sound
@@ -167,6 +172,7 @@ def cycle(
             ),
             guess=requested_guess(guess, point),
             out=out,
+            pictures=pictures,
             as_json=json,
             with_memory=memory,
         )
@@ -247,6 +253,8 @@ def branch(
         Path | None,
         typer.Option(metavar="DIR", help="Write a picture (branch.png) into this directory."),
     ] = None,
+    formats: Formats = None,
+    width: Width = None,
     json: Json = False,
     method: MethodChoice = Method.AUTO,
     segments: Segments = None,
@@ -279,6 +287,7 @@ def branch(
     with reported(as_json=json):
         from birdmb.cli.birds import requested_bird  # noqa: PLC0415 - slow to import
 
+        pictures = requested_pictures(formats, width)
         bird = requested_bird(topology, assignments or [], {parameter: start})
 
         from birdmb.cli.branch import Following, run  # noqa: PLC0415 - slow to import
@@ -300,6 +309,7 @@ def branch(
             store=store,
             resume=resume,
             out=out,
+            pictures=pictures,
             as_json=json,
         )
 

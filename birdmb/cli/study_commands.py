@@ -7,11 +7,13 @@ from typing import Annotated
 
 import typer
 
+from birdmb.cli.drawing import requested_pictures
 from birdmb.cli.options import (
     Assignments,
     ClimbRate,
     Damping,
     DampingChoice,
+    Formats,
     Method,
     MethodChoice,
     ModelChoice,
@@ -23,6 +25,7 @@ from birdmb.cli.options import (
     StepsPerBeat,
     Tolerance,
     Topology,
+    Width,
     Workers,
 )
 from birdmb.cli.outcome import reported
@@ -155,13 +158,15 @@ def plot(
         Path,
         typer.Option(
             metavar="DIR",
-            help="Write the figures (PNG) and the dataset (NetCDF) into this directory.",
+            help="Write the figures and the dataset (NetCDF) into this directory.",
             show_default="the current one",
         ),
     ] = Path(),
+    formats: Formats = None,
+    width: Width = None,
 ) -> None:
     """Draw a study: lines over one parameter, maps over two, with the boundary of stability."""
     with reported():
         from birdmb.cli.plot import run  # noqa: PLC0415 - slow to import
 
-        run(store, quantity or [], at or [], out)
+        run(store, quantity or [], at or [], out, requested_pictures(formats, width))

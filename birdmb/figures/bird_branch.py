@@ -50,7 +50,7 @@ def plot_bird_branch(branch: Branch) -> Figure:
         handles.append(Line2D([], [], color="0.2", lw=THIN, label=thin))
     for found in branch.bifurcations:
         marker = BIFURCATION_MARKERS[found.kind]
-        label = f"{found.kind}, {found.parameter:.4g}"
+        label = f"{found.kind} at {found.parameter:.4g}"
         (mark,) = rows[0].plot(found.parameter, _speed(found.point), marker, color="k", label=label)
         handles.append(mark)
         rows[2].plot(found.parameter, _angle(found.point), marker, color="k")

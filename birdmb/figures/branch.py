@@ -32,6 +32,7 @@ def plot_branch(branch: Branch, quantity: str) -> Figure:
     moduli = np.array([np.abs(point.multipliers) for point in branch.points])
     bottom.plot(branch.parameters, moduli, ".", color="0.3", markersize=4)
     bottom.axhline(1, **LEVEL)
+    middle = 0.5 * (branch.parameters.min() + branch.parameters.max())
     for bifurcation in branch.bifurcations:
         value = value_of(bifurcation.point)
         top.plot(bifurcation.parameter, value, BIFURCATION_MARKERS[bifurcation.kind], color="k")
@@ -39,9 +40,10 @@ def plot_branch(branch: Branch, quantity: str) -> Figure:
         top.annotate(
             text,
             (bifurcation.parameter, value),
-            (6, 6),
+            (-6 if bifurcation.parameter > middle else 6, 6),
             textcoords="offset points",
             fontsize="small",
+            ha="right" if bifurcation.parameter > middle else "left",
         )
         bottom.axvline(bifurcation.parameter, **LEVEL)
     top.set_ylabel(quantity_label(quantity))

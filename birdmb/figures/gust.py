@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
 from birdmb.figures.labels import state_symbol
-from birdmb.figures.page import label_x, new_figure, panels, title
+from birdmb.figures.page import columns_of, label_x, new_figure, panels, title
 from birdmb.figures.style import BLACK, BLUE, DRIVER, GREEN, LEVEL, LINE, SERIES, VERMILION
 from birdmb.text import in_figure
 
@@ -43,7 +43,11 @@ def plot_gust_response(data: xr.Dataset) -> Figure:
     for axes, (name, (unit, scale)) in zip(rows[1:].ravel(), _PANELS.items(), strict=True):
         _deviation(axes, data.sel(state=name), scale)
         axes.set_ylabel(f"Δ{state_symbol(name)} ({unit})")
-    rows[1, 0].legend(frameon=False, fontsize="small", loc="best")
+    handles, labels = rows[1, 0].get_legend_handles_labels()
+    figure.legend(
+        handles, labels, loc="outside lower center", frameon=False, fontsize="small",
+        ncols=columns_of(labels, 4),
+    )  # fmt: skip
     for axes in rows.ravel():
         axes.axhline(0, **LEVEL)
         axes.spines[["top", "right"]].set_visible(False)
@@ -94,7 +98,7 @@ def _running_mean(
 def _deviation(axes: Axes, data: xr.Dataset, scale: float) -> None:
     axes.plot(data["time"], scale * data["deviation"], color=LINE, lw=2, label="full model")
     axes.plot(data["time"], scale * data["linear"], color=BLACK, ls="--", lw=1, label="linear")
-    styles = list(SERIES[1:])
+    styles = [style for style in SERIES if style["color"] not in (LINE, BLACK)]
     largest = float(np.abs(data["linear"]).max())
     for i in range(data.sizes["mode"]):
         mode = data.isel(mode=i)

@@ -9,6 +9,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
+from birdmb.figures.labels import in_words
 from birdmb.figures.page import columns_of, is_narrow, new_figure, panels, title
 from birdmb.figures.style import BLUE, DRIVER, GREEN, LINE, VERMILION
 from birdmb.kinematics import KinematicsFit
@@ -29,8 +30,10 @@ def plot_kinematics(fit: KinematicsFit) -> Figure:
     """
     points = [name for name in fit.markers if name not in fit.bird.joint_names]
     groups = [list(fit.bird.joint_names), points] if points else [list(fit.bird.joint_names)]
-    rows = [-(-len(names) // _COLUMNS) for names in groups]
-    figure = new_figure(10.5, 0.8 + 1.9 * sum(rows), rows=sum(rows), columns=_COLUMNS)
+    columns = 1 if is_narrow() else _COLUMNS
+    rows = [-(-len(names) // columns) for names in groups]
+    wide, high = (3.5, 1.0) if is_narrow() else (10.5, 1.9)
+    figure = new_figure(wide, 0.8 + high * sum(rows), rows=sum(rows), columns=columns)
     parts = figure.subfigures(len(groups), 1, squeeze=False, height_ratios=rows)[:, 0]
     for name, axes in zip(groups[0], _panels(parts[0], rows[0], len(groups[0])), strict=True):
         _draw_joint(axes, fit, name)
@@ -49,14 +52,14 @@ def plot_kinematics(fit: KinematicsFit) -> Figure:
 
 
 def _panels(figure: SubFigure, rows: int, count: int) -> list[Axes]:
-    all_panels = list(panels(figure, rows, _COLUMNS, sharex=True).ravel())
+    columns = 1 if is_narrow() else _COLUMNS
+    all_panels = list(panels(figure, rows, columns, sharex=True).ravel())
     for axes in all_panels[count:]:
         axes.remove()
-    beside = 1 if is_narrow() else _COLUMNS
     for place, axes in enumerate(all_panels[:count]):
         axes.set_xlim(0.0, 1.0)
         axes.spines[["top", "right"]].set_visible(False)
-        if place + beside >= count:
+        if place + columns >= count:
             axes.set_xlabel("time (beats)")
             axes.tick_params(labelbottom=True)
     figure.align_ylabels()
@@ -105,5 +108,5 @@ def _draw_marker(axes: Axes, fit: KinematicsFit, name: str) -> None:
         axes.plot(phases, measured, color=colour, **_SAMPLE)
         axes.plot(phases[order], fitted[order], color=colour, ls=dashes, lw=1.0, label=direction)
     residual = 1e3 * fit.markers[name].residual
-    axes.set_ylabel(f"{in_figure(name)} (mm)")
+    axes.set_ylabel(f"{in_words(name).replace(' ', chr(10))} (mm)")
     axes.set_title(f"residual {residual:.3g} mm", fontsize="small", loc="right", pad=2)

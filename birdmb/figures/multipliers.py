@@ -12,7 +12,7 @@ from matplotlib.patches import Circle
 from birdmb._typing import ComplexArray, FloatArray
 from birdmb.figures.labels import IMAGINARY, REAL
 from birdmb.figures.page import new_figure, title
-from birdmb.figures.style import LEVEL, STABLE_COLOUR, UNSTABLE_COLOUR, title_of
+from birdmb.figures.style import LEVEL, STABLE_COLOUR, UNSTABLE_COLOUR, VERDICT_MARKERS, title_of
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
@@ -30,11 +30,19 @@ def plot_multipliers(cycle: FlightCycle) -> Figure:
 
 
 def draw_multipliers(axes: Axes, multipliers: ComplexArray, errors: FloatArray) -> None:
-    """Draw multipliers (n,) in the complex plane, with their error bounds as discs."""
+    """Draw multipliers (n,) in the complex plane, with their error bounds as discs.
+
+    Those outside the unit circle are triangles, those on it within their error grey squares.
+    """
     axes.add_patch(Circle((0, 0), 1, fill=False, color="0.6"))
-    inside = np.abs(multipliers) <= 1
-    for keep, marker, colour in ((inside, "o", STABLE_COLOUR), (~inside, "^", UNSTABLE_COLOUR)):
-        axes.plot(multipliers[keep].real, multipliers[keep].imag, marker, color=colour)
+    outside, known = np.abs(multipliers) - 1.0, np.nan_to_num(errors, posinf=np.inf)
+    for verdict, keep in (
+        ("stable", outside < -known),
+        ("unstable", outside > known),
+        ("undecided", np.abs(outside) <= known),
+    ):
+        shown = multipliers[keep]
+        axes.plot(shown.real, shown.imag, **VERDICT_MARKERS[verdict])
     for value, error in zip(multipliers, errors, strict=True):
         if np.isfinite(error):
             axes.add_patch(Circle((value.real, value.imag), error, color="0.5", alpha=0.3))

@@ -25,7 +25,7 @@ def plot_overview(cycle: FlightCycle) -> Figure:
     """Draw the wings at four phases, states, loads, power and multipliers on one page (16:9)."""
     states = len(cycle.model.motion_state_names)
     if is_narrow():
-        heights = (2.4, 0.95 * states, 3.8, 4.2)
+        heights = (3.6, 0.95 * states, 3.8, 4.2)
         figure = new_figure(3.5, sum(heights), rows=int(sum(heights)))
         top, left, middle, right = parts(figure, heights, heights)
     else:
@@ -43,7 +43,9 @@ def plot_overview(cycle: FlightCycle) -> Figure:
     circle, numbers = right.subplots(2, 1, height_ratios=(1.7, 1))
     draw_labelled_multipliers(circle, cycle)
     _write_numbers(numbers, cycle)
-    title(top, f"{title_of(cycle)}: {_verdict(cycle)}", fontsize="large")
+    title(
+        top, f"{title_of(cycle)}: {_verdict(cycle)}", fontsize="medium" if is_narrow() else "large"
+    )
     return figure
 
 

@@ -53,4 +53,4 @@ def plot_perturbed_flight(data: xr.Dataset) -> Figure:
 
 def _mode(mode: xr.Dataset) -> str:
     real, imag = float(mode["multiplier_real"]), float(mode["multiplier_imag"])
-    return f"Λ = {real:.3f}" + (f" ± {imag:.3f} i" if imag else "").replace("-", "−")
+    return (f"Λ = {real:.3f}" + (f" ± {imag:.3f} i" if imag else "")).replace("-", "−")

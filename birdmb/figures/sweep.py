@@ -12,6 +12,7 @@ from matplotlib.colors import LogNorm, Normalize, TwoSlopeNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
+from matplotlib.patheffects import withStroke
 
 from birdmb.figures.labels import (
     LARGEST_MODULUS,
@@ -41,11 +42,14 @@ _SIGN_TURNS = (0.0, "PuOr_r", "Oranges", "Purples_r")
 _MOST_TICKS = 7
 # Of time constants: fast is dark.
 _GROWTH, _DECAY = "Reds_r", "Blues_r"
-_COMPUTED: dict[str, Any] = {"ls": "", "marker": ".", "color": "k", "markersize": 2.5}
+# Marks and lines that are seen on dark cells, too.
+_HALO = [withStroke(linewidth=1.6, foreground="w")]
+_MARK: dict[str, Any] = {"ls": "", "color": "k", "path_effects": _HALO}
+_COMPUTED: dict[str, Any] = {**_MARK, "marker": ".", "markersize": 2.5}
 _DECADE = 10.0  # a wider range of time constants is drawn on a logarithmic scale
 _FAILED: dict[str, Any] = {"facecolor": "0.9", "edgecolor": "0.5", "hatch": "////", "linewidth": 0}
-_BEYOND: dict[str, Any] = {"ls": "", "marker": "x", "color": "k", "markersize": 4.5}
-_UNDECIDED: dict[str, Any] = {"ls": "", "marker": "s", "color": "k", "markerfacecolor": "none"}
+_BEYOND: dict[str, Any] = {**_MARK, "marker": "x", "markersize": 4.5}
+_UNDECIDED: dict[str, Any] = {**_MARK, "marker": "s", "markerfacecolor": "none"}
 _BACKWARDS: dict[str, Any] = {"ls": "", "marker": "$<$", "color": "k", "markersize": 7}
 _JUMP: dict[str, Any] = {"color": "deeppink", "linewidth": 2.4, "ls": (0, (2, 0.6))}
 
@@ -218,9 +222,10 @@ def _draw_time_constants(
 ) -> None:
     """Draw how fast disturbances grow in other colours than how fast they decay."""
     finite = np.isfinite(values)
-    for part, colours, label in (
-        (finite & (modulus > 1), _GROWTH, "growth"),
-        (finite & (modulus <= 1), _DECAY, "decay"),
+    axes.set_title("time constant", fontsize="small")
+    for part, colours, label, foot in (
+        (finite & (modulus > 1), _GROWTH, "growth", 0.53),
+        (finite & (modulus <= 1), _DECAY, "decay", 0.0),
     ):
         if not part.any():
             continue
@@ -228,7 +233,8 @@ def _draw_time_constants(
         low, high = np.nanmin(shown), np.nanmax(shown)
         norm = LogNorm(low, high) if high > _DECADE * low else Normalize(low, high)
         mesh = axes.pcolormesh(x, y, shown, shading="nearest", norm=norm, cmap=colours)
-        axes.figure.colorbar(mesh, ax=axes, label=f"time constant of {label} (s)", pad=0.02)
+        beside = axes.inset_axes((1.03, foot, 0.06, 0.47))
+        axes.figure.colorbar(mesh, cax=beside).set_label(f"{label} (s)", fontsize="small")
 
 
 def _draw_jumps(

@@ -136,7 +136,7 @@ def draw_wing_phases(figure: Figure | SubFigure, cycle: FlightCycle, views: Sequ
             top -= high - low + gap
         top -= _ROOM_FOR_TITLES * widest
     foot = top + _ROOM_FOR_TITLES * widest + 0.3 * gap
-    _scale_bar(axes, -0.5 * width, foot, _round_below(_LONGEST_BAR * widest))
+    _scale_bar(axes, -0.4 * width, foot, _round_below(_LONGEST_BAR * widest))
     _colour_bar(figure, axes, norm, np.array([pose.circulations for pose in poses]))
 
 
