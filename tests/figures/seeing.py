@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, FigureBase
 from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
@@ -92,7 +92,7 @@ def unlabelled(figure: Figure) -> list[str]:
             label = axis.label.get_text().replace("\n", " ")
             ticks = axis.get_ticklabels()
             shown = any(tick.get_visible() and tick.get_text() for tick in ticks)
-            with_unit = re.search(r"\([^()]*(\([^()]*\))?[^()]*\)$|°", label)
+            with_unit = re.search(r"\([^)]+\)|°", label)
             if shown and not with_unit and label not in DIMENSIONLESS:
                 found.append(f"{name} of {axes.get_title() or axes.get_ylabel()!r}: {label!r}")
     return found
@@ -120,7 +120,7 @@ def unreadable(figure: Figure) -> list[str]:
             found.append(f"beyond the edge: {text.get_text()!r}")
         boxes.append((text.get_text(), box))
     for (one, a), (other, b) in itertools.combinations(boxes, 2):
-        if a.shrunk_to_aspect and a.padded(-1).overlaps(b.padded(-1)):
+        if a.padded(-1).overlaps(b.padded(-1)):
             found.append(f"{one!r} over {other!r}")
     return found
 
@@ -131,7 +131,7 @@ def _small(text: Text) -> bool:
 
 def _fixed(figure: Figure) -> Iterator[Text]:
     """Titles, labels of axes and texts of figure legends: what no data move."""
-    for part in [figure, *figure.findobj(type(figure).subfigures and _is_sub)]:
+    for part in figure.findobj(FigureBase):
         if part._suptitle is not None and part._suptitle.get_text():
             yield part._suptitle
         for legend in part.legends:
@@ -140,7 +140,3 @@ def _fixed(figure: Figure) -> Iterator[Text]:
         if axes.axison and axes.get_visible() and "z" not in axes._axis_names:
             candidates = (axes.title, axes.xaxis.label, axes.yaxis.label)
             yield from (each for each in candidates if each.get_text() and each.get_visible())
-
-
-def _is_sub(artist: object) -> bool:
-    return hasattr(artist, "legends") and hasattr(artist, "_suptitle")
