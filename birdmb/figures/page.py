@@ -171,7 +171,7 @@ def label_y(axes: np.ndarray, label: str) -> None:
     """Label the y axes of the first of the panels that share it, or of all that stand alone."""
     for each in axes.ravel():
         if each.get_subplotspec().is_first_col():
-            each.set_ylabel(wrapped(label, 0.3))
+            each.set_ylabel(label if "$" in label else wrapped(label, 0.3))
 
 
 def title(where: Figure | SubFigure | Axes, text: str, **options: Any) -> None:

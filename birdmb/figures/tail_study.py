@@ -149,6 +149,7 @@ def plot_pareto(data: xr.Dataset, limits: Mapping[str, float] = VALID) -> Figure
         )
         axes.axhline(1.0, **LEVEL)
         axes.set(xlabel="cost of transport", ylabel=LARGEST_MODULUS)
+        axes.locator_params(axis="x", nbins=5)
         axes.spines[["top", "right"]].set_visible(False)
     if front.size > 1:
         near.set_xlim(*_around(cost[front]))

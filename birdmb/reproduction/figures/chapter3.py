@@ -76,7 +76,7 @@ def loads_held_and_free(out: Path, coarse: bool) -> None:
     figure = new_figure(8, 7, rows=3)
     rows = panels(figure, 3, 1, sharex=True)[:, 0]
     for i, (axes, label) in enumerate(
-        zip(rows, ("thrust / weight", "lift / weight", "pitching moment (N m)"), strict=True)
+        zip(rows, ("thrust / weight", "lift / weight", "moment (N m)"), strict=True)
     ):
         for mount, style in _STYLES.items():
             axes.plot(beats, loads[mount][:, i] / (weight if i < 2 else 1.0), **style, label=mount)

@@ -84,6 +84,7 @@ def portrait_in_space(out: Path, _coarse: bool) -> None:
     axes.plot(*(_SCALES * cycle.x0)[[0, 1, 3]], "ks", ms=5, label="t = 0, mid-downstroke")
     axes.set(xlabel=_LABELS["u"], ylabel=_LABELS["w"], zlabel=_LABELS["theta"])
     axes.locator_params(nbins=4)
+    axes.set_box_aspect(None, zoom=0.85)  # labels lie outside of what the layout counts
     axes.legend(frameon=False, fontsize="small")
     keep_figure(out, "figure 5.6", figure)
 

@@ -60,21 +60,21 @@ def amplitude_locus(out: Path, coarse: bool) -> None:
     study = _over_amplitude(coarse)
     over = study[FLAP_AMPLITUDE].values
     values = study["multiplier_real"].values + 1j * study["multiplier_imag"].values
-    figure = new_figure(11, 4.4, columns=2)
-    whole, near = parts(figure, (1, 1.5), (1, 1))
+    figure = new_figure(11, 4.4, columns=3)
+    whole, near = parts(figure, (1, 1.5), (1, 2))
     plane = whole.subplots()
     phase = np.linspace(0.0, 2 * np.pi, 181)
     plane.plot(np.cos(phase), np.sin(phase), color="0.6", lw=1)
     colours = np.broadcast_to(over[:, None], values.shape)
     plane.scatter(values.real, values.imag, c=colours, s=16)
     plane.set(xlabel=REAL, ylabel=IMAGINARY, aspect="equal", xlim=(-1.1, 1.6))
-    row = near.subplots(1, 3)
+    row = panels(near, 1, 3)[0]
     upper = np.where(values.imag > 0, values, 0.0).sum(axis=1)
     real = values[:, [0, -1]]
     for axes, each, name in zip(row, (real[:, 0], upper, real[:, 1]), "124", strict=True):
         shown = axes.scatter(each.real, each.imag, c=over, s=22)
         axes.set(xlabel=REAL, ylabel=IMAGINARY, title=f"Λ{name}")
-        axes.locator_params(nbins=2 if is_narrow() else 3)
+        axes.locator_params(nbins=3)
     near.colorbar(
         shown, ax=row, label=parameter_label(FLAP_AMPLITUDE),
         location="bottom" if is_narrow() else "right",

@@ -11,7 +11,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
 from birdmb.figures.labels import state_symbol
-from birdmb.figures.page import is_narrow, label_x, label_y, new_figure, panels, title
+from birdmb.figures.page import columns_of, is_narrow, label_x, label_y, new_figure, panels, title
 from birdmb.figures.style import BLUE, LEVEL, ORANGE, SKY, VERMILION
 from birdmb.models import FlightCycle, GaussianGust
 from birdmb.quantities import DISSIPATORS
@@ -93,11 +93,13 @@ def _figure_6_3(out: Path, coarse: bool) -> None:
         axes.set_xlabel("flight")
         axes.set_ylabel("power (W)")
         axes.spines[["top", "right"]].set_visible(False)
-        axes.legend(
-            *_first_of_each(axes), frameon=False, fontsize="small", ncols=2, loc="upper left"
-        )
         axes.set_ylim(0.0, 29.0)
         title(axes, "cost of transport, and its parts")
+    handles, labels = _first_of_each(grid[0, -1])
+    figure.legend(
+        handles, labels, loc="outside lower center", frameon=False, fontsize="small",
+        ncols=columns_of(labels, 5),
+    )  # fmt: skip
     keep_figure(out, "figure 6.3", figure)
 
 
@@ -153,7 +155,11 @@ def _figure_6_4(out: Path, coarse: bool) -> None:
         for axes in column if is_narrow() else column[:1]:
             title(axes, f"({row}), gust of {strength:g} m/s", pad=2 if is_narrow() else None)
     label_x(grid, "time (s)")
-    grid[0, -1].legend(frameon=False, fontsize="small")
+    handles, labels = grid[0, -1].get_legend_handles_labels()
+    figure.legend(
+        handles, labels, loc="outside lower center", frameon=False, fontsize="small",
+        ncols=columns_of(labels, 3),
+    )  # fmt: skip
     for row_of_axes, name in zip(grid, _UNITS, strict=True):
         label_y(row_of_axes, f"{state_symbol(name)} ({_UNITS[name]})")
     keep_figure(out, "figure 6.4", figure)
