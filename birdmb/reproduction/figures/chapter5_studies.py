@@ -155,6 +155,7 @@ def jacobians(out: Path, coarse: bool) -> None:
         "central": lambda: by_differences(1e-6, True),
     }
     times.bar(list(ways), [1e3 * _seconds(way) for way in ways.values()], color=LINE)
+    times.set_xlabel("way of differentiation")
     times.set_ylabel("processor time of a Jacobian (ms)")
     keep_figure(out, "figure 5.13", figure)
 

@@ -85,7 +85,7 @@ def _figure_6_3(out: Path, coarse: bool) -> None:
         _moments(axes, cycle)
         title(axes, f"({row}) {about}")
         _cost(grid[list(_SETUPS).index(about), -1], row, cycle)
-    label_y(grid[:, :-1], "pitching moment, nose up (N m)")
+    label_y(grid[:, :-1], "moment (N m)")
     for axes in grid[:, :-1].ravel():
         axes.set_xlabel("time (beats)")
         axes.sharey(grid[0, 0])
