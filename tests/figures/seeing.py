@@ -29,7 +29,8 @@ _WHITE = np.array([0.9505, 1.0, 1.089])
 DIMENSIONLESS = {
     *(each.axis_label for each in BY_NAME.values() if each.unit == "1"),
     r"$|\Lambda|$", r"$|\Lambda|_\mathrm{max}$", r"Re $\Lambda$", r"Im $\Lambda$",
-    "phase of the beat", "iteration", "flight", "way of differentiation", "force / weight", "Δ lift / weight",
+    "phase of the beat", "iteration", "flight", "way of differentiation",
+    "force / weight", "Δ lift / weight",
     "thrust / weight", "lift / weight", "evaluations of the right-hand side in a beat",
     "largest gap of multibody and rigid", "span position (part of the half-span)",
     *("D1", "D2", "R", "A"),
