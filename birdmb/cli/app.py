@@ -9,13 +9,14 @@ import typer
 
 from birdmb.cli.bird_commands import commands as bird_commands
 from birdmb.cli.completion import dotted_names
-from birdmb.cli.drawing import ignore_settings
+from birdmb.cli.drawing import ignore_settings, requested_pictures
 from birdmb.cli.flight_commands import commands as flight_commands
 from birdmb.cli.options import (
     MOST_STEPS,
     Assignments,
     Damping,
     DampingChoice,
+    Formats,
     Json,
     Method,
     MethodChoice,
@@ -27,6 +28,7 @@ from birdmb.cli.options import (
     StepsPerBeat,
     Tolerance,
     Topology,
+    Width,
     number,
 )
 from birdmb.cli.outcome import InputError, reported
@@ -103,9 +105,11 @@ def cycle(
         Path | None,
         typer.Option(
             metavar="DIR",
-            help="Write the result (cycle.nc) and figures (PNG) into this directory.",
+            help="Write the result (cycle.nc) and figures into this directory.",
         ),
     ] = None,
+    formats: Formats = None,
+    width: Width = None,
     json: Json = False,
     segments: Segments = None,
     tolerance: Tolerance = 1e-9,
@@ -148,6 +152,7 @@ def cycle(
     with reported(as_json=json):
         from birdmb.cli.birds import requested_bird  # noqa: PLC0415 - slow to import
 
+        pictures = requested_pictures(formats, width)
         bird = requested_bird(topology, assignments or [])
 
         from birdmb.cli.cycle import run  # noqa: PLC0415 - not before the bird is sound
@@ -168,6 +173,7 @@ def cycle(
             ),
             guess=requested_guess(guess, point),
             out=out,
+            pictures=pictures,
             as_json=json,
             with_memory=memory,
         )
@@ -249,6 +255,8 @@ def branch(
         Path | None,
         typer.Option(metavar="DIR", help="Write a picture (branch.png) into this directory."),
     ] = None,
+    formats: Formats = None,
+    width: Width = None,
     json: Json = False,
     method: MethodChoice = Method.AUTO,
     segments: Segments = None,
@@ -281,6 +289,7 @@ def branch(
     with reported(as_json=json):
         from birdmb.cli.birds import requested_bird  # noqa: PLC0415 - slow to import
 
+        pictures = requested_pictures(formats, width)
         bird = requested_bird(topology, assignments or [], {parameter: start})
 
         from birdmb.cli.branch import Following, run  # noqa: PLC0415 - slow to import
@@ -302,6 +311,7 @@ def branch(
             store=store,
             resume=resume,
             out=out,
+            pictures=pictures,
             as_json=json,
         )
 

@@ -8,7 +8,8 @@ from typing import Annotated
 import typer
 
 from birdmb.cli.completion import birds_and_files
-from birdmb.cli.options import Json, number
+from birdmb.cli.drawing import requested_pictures
+from birdmb.cli.options import Formats, Json, Width, number
 from birdmb.cli.outcome import reported
 
 commands = typer.Typer()
@@ -191,8 +192,13 @@ def kinematics(
     ] = False,
     figure: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Draw measured beside fitted into this file (PNG)."),
+        typer.Option(
+            metavar="FILE",
+            help="Draw measured beside fitted into this file: PNG, PDF or SVG by its ending.",
+        ),
     ] = None,
+    formats: Formats = None,
+    width: Width = None,
     json: Json = False,
 ) -> None:
     """Fit the gait of a bird to a measured flight: points, or joint angles, over some beats.
@@ -208,6 +214,7 @@ def kinematics(
             like,
             out=out,
             figure=figure,
+            pictures=requested_pictures(formats, width, figure),
             as_json=json,
             options={
                 "frame": frame,

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from birdmb.cli.console import messages, output
-from birdmb.cli.drawing import plain_style
-from birdmb.cli.files import prepare, write_figure
+from birdmb.cli.drawing import Pictures
+from birdmb.cli.files import prepare
 from birdmb.cli.models import model_class
 from birdmb.cli.outcome import InputError, SearchFailed
 from birdmb.cli.progress import Progress, at_work
@@ -71,6 +71,7 @@ def run(
     store: Path | None,
     resume: bool,
     out: Path | None,
+    pictures: Pictures,
     as_json: bool,
 ) -> None:
     """Follow the branch, report it on standard output, keep it in `store`, draw it into `out`."""
@@ -89,12 +90,12 @@ def run(
     if not as_json:
         _report(output(), branch)
     written = [] if store is None else [store]
-    with at_work(progress, *directories, farewell=farewell), plain_style():
+    with at_work(progress, *directories, farewell=farewell), pictures.style():
         if out is not None:
             from birdmb.figures import plot_bird_branch  # noqa: PLC0415 - takes time
 
-            progress.doing("drawing branch.png")
-            written.append(write_figure(out / "branch.png", plot_bird_branch(branch)))
+            progress.doing("drawing the branch")
+            written += pictures.write(out, "branch", plot_bird_branch(branch))
     if as_json:
         found = {**_object(branch), "files": list(map(str, written))}
         json.dump(found, sys.stdout, allow_nan=False, indent=2)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from birdmb.cli.console import messages, output
-from birdmb.cli.drawing import plain_style
+from birdmb.cli.drawing import Pictures
 from birdmb.cli.files import prepare, write_results
 from birdmb.cli.outcome import NO_CYCLE, ResultUnwrittenError
 from birdmb.cli.progress import Progress, at_work
@@ -38,6 +38,7 @@ def run(
     *,
     guess: SavedGuess | None,
     out: Path | None,
+    pictures: Pictures,
     as_json: bool,
     with_memory: bool,
 ) -> None:
@@ -67,8 +68,8 @@ def run(
     written: list[Path] = []
     if out is not None:
         try:
-            with at_work(progress, out), plain_style():
-                written = write_results(cycle, out, progress)
+            with at_work(progress, out):
+                written = write_results(cycle, out, pictures, progress)
         except OutputError as error:
             raise ResultUnwrittenError(str(error), found) from error
     if as_json:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,10 +14,9 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
+    from birdmb.cli.drawing import Pictures
     from birdmb.cli.progress import Progress
     from birdmb.models import FlightCycle
-
-_DPI = 150
 
 
 def prepare(directory: Path, option: str = "--out") -> None:
@@ -52,14 +50,9 @@ def write_dataset(path: Path, dataset: xr.Dataset) -> Path:
     return write_whole(path, netcdf_bytes(dataset))
 
 
-def write_figure(path: Path, figure: Figure) -> Path:
-    """Write a figure as PNG."""
-    content = io.BytesIO()
-    figure.savefig(content, dpi=_DPI, format="png")
-    return write_whole(path, content.getvalue())
-
-
-def write_results(cycle: FlightCycle, directory: Path, progress: Progress) -> list[Path]:
+def write_results(
+    cycle: FlightCycle, directory: Path, pictures: Pictures, progress: Progress
+) -> list[Path]:
     """Write `cycle.nc` and the figures into a directory; return what was written."""
     progress.doing("writing cycle.nc")
     cycle.save(directory / "cycle.nc")
@@ -67,13 +60,14 @@ def write_results(cycle: FlightCycle, directory: Path, progress: Progress) -> li
     from birdmb import figures  # noqa: PLC0415 - takes a second
 
     drawings: dict[str, Callable[[FlightCycle], Figure]] = {
-        "states.png": figures.plot_states,
-        "multipliers.png": figures.plot_multipliers,
-        "loads.png": figures.plot_loads_and_power,
-        "wing.png": figures.plot_wing_phases,
-        "overview.png": figures.plot_overview,
+        "states": figures.plot_states,
+        "multipliers": figures.plot_multipliers,
+        "loads": figures.plot_loads_and_power,
+        "wing": figures.plot_wing_phases,
+        "overview": figures.plot_overview,
     }
     for name, draw in drawings.items():
         progress.doing(f"drawing {name}")
-        written.append(write_figure(directory / name, draw(cycle)))
+        with pictures.style():
+            written += pictures.write(directory, name, draw(cycle))
     return written

@@ -9,9 +9,11 @@ from typing import Annotated
 import typer
 
 from birdmb.cli.completion import assigned_names
+from birdmb.cli.drawing import requested_pictures
 from birdmb.cli.options import (
     Assignments,
     ClimbRate,
+    Formats,
     Json,
     ModelChoice,
     ModelName,
@@ -19,6 +21,7 @@ from birdmb.cli.options import (
     MotionOption,
     Speed,
     Topology,
+    Width,
     Workers,
     number,
 )
@@ -213,8 +216,10 @@ def gust(
     assignments: Assignments = None,
     out: Annotated[
         Path | None,
-        typer.Option(metavar="DIR", help="Write gust.nc and figures (PNG) into this directory."),
+        typer.Option(metavar="DIR", help="Write gust.nc and figures into this directory."),
     ] = None,
+    formats: Formats = None,
+    width: Width = None,
     json: Json = False,
 ) -> None:
     """Fly a bird from its limit cycle through a gust, by the full model and by the linear one.
@@ -225,6 +230,7 @@ def gust(
     with reported(as_json=json):
         from birdmb.cli.birds import requested_bird  # noqa: PLC0415 - slow to import
 
+        pictures = requested_pictures(formats, width)
         bird = requested_bird(topology, assignments or [])
 
         from birdmb.cli.gust import GustOptions, run  # noqa: PLC0415 - not before all is sound
@@ -244,6 +250,7 @@ def gust(
                 beats=beats,
             ),
             out=out,
+            pictures=pictures,
             as_json=json,
         )
 
@@ -304,6 +311,8 @@ def tail_study(
         Path | None,
         typer.Option(metavar="DIR", help="Write dataset (NetCDF) and figures into this directory."),
     ] = None,
+    formats: Formats = None,
+    width: Width = None,
 ) -> None:
     """Level the flight for many tail openings and gaits: what stability costs (rigid bird).
 
@@ -318,6 +327,7 @@ def tail_study(
             requested_variations,
         )
 
+        pictures = requested_pictures(formats, width)
         bird = requested_bird(topology, assignments or [])
         varied = requested_variations(vary) if vary else None
         bounds = requested_bounds(bird, trim, None, "--trim") if trim else None
@@ -334,4 +344,5 @@ def tail_study(
             every=every,
             workers=workers,
             out=out,
+            pictures=pictures,
         )

@@ -14,8 +14,8 @@ import typer
 import xarray as xr
 
 from birdmb.cli.console import messages, output
-from birdmb.cli.drawing import plain_style
-from birdmb.cli.files import prepare, write_dataset, write_figure
+from birdmb.cli.drawing import Pictures
+from birdmb.cli.files import prepare, write_dataset
 from birdmb.cli.outcome import NO_CYCLE, InputError, ResultUnwrittenError
 from birdmb.cli.progress import Progress, at_work
 from birdmb.cli.results import finite, verdict_sentence
@@ -85,6 +85,7 @@ def run(
     options: GustOptions,
     *,
     out: Path | None,
+    pictures: Pictures,
     as_json: bool,
 ) -> None:
     """Fly a bird from its limit cycle through a gust, say what it does, and write it into `out`."""
@@ -107,11 +108,11 @@ def run(
         _report(cycle, flight)
     if out is not None:
         try:
-            with at_work(progress, out), plain_style():
+            with at_work(progress, out), pictures.style():
                 written = [
                     write_dataset(out / "gust.nc", flight),
-                    write_figure(out / "gust.png", plot_gust_response(flight)),
-                    write_figure(out / "gust_states.png", plot_gust_states(flight)),
+                    *pictures.write(out, "gust", plot_gust_response(flight)),
+                    *pictures.write(out, "gust_states", plot_gust_states(flight)),
                 ]
         except OutputError as error:
             raise ResultUnwrittenError(str(error), found) from error

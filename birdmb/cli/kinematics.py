@@ -15,8 +15,7 @@ from rich.table import Table
 
 from birdmb._typing import FloatArray
 from birdmb.cli.console import messages, output
-from birdmb.cli.drawing import plain_style
-from birdmb.cli.files import write_figure
+from birdmb.cli.drawing import Pictures
 from birdmb.cli.progress import Progress
 from birdmb.cli.results import finite
 from birdmb.cli.tables import table_of
@@ -44,6 +43,7 @@ def run(
     options: Options,
     out: Path | None,
     figure: Path | None,
+    pictures: Pictures,
     as_json: bool,
 ) -> None:
     """Fit a gait, say how sure it is, and write the bird and a figure."""
@@ -55,8 +55,8 @@ def run(
     if out is not None:
         written.append(fit.write(out))
     if figure is not None:
-        with plain_style():
-            written.append(write_figure(figure, fit.plot()))
+        with pictures.style():
+            written += pictures.write(figure.parent, figure.stem, fit.plot())
     if as_json:
         json.dump(_object(fit), sys.stdout, indent=2, allow_nan=False)
         typer.echo()

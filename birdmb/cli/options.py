@@ -141,6 +141,25 @@ StepsPerBeat = Annotated[
 Json = Annotated[
     bool, typer.Option("--json", help="Print one JSON object to standard output, no tables.")
 ]
+Formats = Annotated[
+    str | None,
+    typer.Option(
+        "--format",
+        metavar="LIST",
+        help="Formats of figures, one or more of png, pdf and svg: pdf,svg.",
+        show_default="png",
+    ),
+]
+Width = Annotated[
+    str | None,
+    typer.Option(
+        "--width",
+        metavar="WIDTH",
+        help="Draw figures for a page or column as wide as this: 90mm, 18cm or 3.5in. Text is 6 pt "
+        "or larger, panels stand below one another where they must.",
+        show_default="for a screen",
+    ),
+]
 ClimbRate = Annotated[
     float,
     typer.Option(

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
 
-from birdmb.cli.drawing import plain_style
-from birdmb.cli.files import prepare, reject_overwriting, write_dataset, write_figure
+from birdmb.cli.drawing import Pictures
+from birdmb.cli.files import prepare, reject_overwriting, write_dataset
 from birdmb.cli.outcome import InputError
 from birdmb.datafiles import is_netcdf, kind_of, read_dataset
 from birdmb.models import load_cycle
@@ -24,18 +25,20 @@ if TYPE_CHECKING:
 _Draw = Callable[[str | None], "Figure"]
 
 
-def run(file: Path, quantities: Sequence[str], at: Sequence[str], out: Path) -> None:
+def run(
+    file: Path, quantities: Sequence[str], at: Sequence[str], out: Path, pictures: Pictures
+) -> None:
     """Draw the study, branch or cycle in `file` into the directory `out`.
 
     Of a study's store the dataset is written there, too.
     """
     fixed = dict(map(parse_assignment, at))
     if is_netcdf(file):
-        _write(file, _of_dataset(file, quantities, fixed), quantities, out, [])
+        _write(file, _of_dataset(file, quantities, fixed), quantities, (out, []), pictures)
         return
     study = Study.open(file)
     data_file = f"{file.stem}.nc"
-    _write(file, lambda name: study.plot(name, at=fixed), quantities, out, [data_file])
+    _write(file, partial(study.plot, at=fixed), quantities, (out, [data_file]), pictures)
     dataset = study.to_xarray(timings=True)
     for line in [*verdict_lines(dataset), *jump_lines(dataset)]:
         typer.echo(line)
@@ -43,17 +46,25 @@ def run(file: Path, quantities: Sequence[str], at: Sequence[str], out: Path) -> 
 
 
 def _write(
-    file: Path, draw: _Draw, quantities: Sequence[str], out: Path, others: Sequence[str]
+    file: Path,
+    draw: _Draw,
+    quantities: Sequence[str],
+    to: tuple[Path, Sequence[str]],
+    pictures: Pictures,
 ) -> None:
-    with plain_style():
+    """Write figures to a directory, in which `to` says that other files will be written, too."""
+    out, others = to
+    with pictures.style():
         figures = {
-            f"{file.stem}_{name}.png" if name else f"{file.stem}.png": draw(name)
+            f"{file.stem}_{name}" if name else file.stem: draw(name)
             for name in (quantities or (None,))
         }
         prepare(out)
-        reject_overwriting(file, out, [*figures, *others])
-        for name, figure in figures.items():
-            typer.echo(f"wrote {write_figure(out / name, figure)}")
+        names = [path for stem in figures for path in pictures.names(stem)]
+        reject_overwriting(file, out, [*names, *others])
+        for stem, figure in figures.items():
+            for path in pictures.write(out, stem, figure):
+                typer.echo(f"wrote {path}")
 
 
 def _of_dataset(file: Path, quantities: Sequence[str], fixed: Mapping[str, Any]) -> _Draw:

@@ -9,21 +9,21 @@ from typing import TYPE_CHECKING
 
 import typer
 
-import birdmb
 from birdmb.animation.animation import animate, require_ending
 from birdmb.cli.birds import requested_bird
 from birdmb.cli.console import messages
-from birdmb.cli.drawing import plain_style
+from birdmb.cli.drawing import Pictures
 from birdmb.cli.files import prepare
 from birdmb.cli.outcome import NO_CYCLE, InputError
 from birdmb.cli.progress import Progress, at_work
 from birdmb.cli.searching import TRIM, Search, announce, found_flight, model_of
+from birdmb.models import load_cycle
 
 if TYPE_CHECKING:
     from birdmb.animation.colours import ColourName
     from birdmb.animation.stage import ViewName
     from birdmb.models import FlightCycle
-    from birdmb.models.motion import MotionName
+    from birdmb.models.motion import FlightMotionName
     from birdmb.topology import Bird
 
 _MOST_FLIGHTS = 2
@@ -35,7 +35,7 @@ class Wanted:
 
     flights: tuple[str, ...]
     model: str | None
-    motion: MotionName | None
+    motion: FlightMotionName | None
     assignments: tuple[str, ...]
 
 
@@ -67,7 +67,7 @@ def run(wanted: Wanted, picture: Picture, *, out: Path | None, opened: bool) -> 
         None if _is_saved(f) else requested_bird(f, wanted.assignments) for f in wanted.flights
     ]
     progress = Progress(messages())
-    with at_work(progress, path.parent), plain_style():
+    with at_work(progress, path.parent), Pictures().style():
         cycles = [
             _saved(flight, wanted) if bird is None else _searched(bird, wanted, progress)
             for flight, bird in zip(wanted.flights, birds, strict=True)
@@ -115,11 +115,7 @@ def _saved(flight: str, wanted: Wanted) -> FlightCycle:
             raise InputError(
                 f"{option} is for topologies; {flight} holds a flight that was found already."
             )
-    load = getattr(birdmb, "load_cycle", None)
-    if load is None:
-        raise InputError(f"{flight}: this version reads no saved cycles; give the topology.")
-    found: FlightCycle = load(flight)
-    return found
+    return load_cycle(flight)
 
 
 def _searched(bird: Bird, wanted: Wanted, progress: Progress) -> FlightCycle:

@@ -8,11 +8,13 @@ from typing import Annotated
 import typer
 
 from birdmb.cli.completion import assigned_names
+from birdmb.cli.drawing import requested_pictures
 from birdmb.cli.options import (
     Assignments,
     ClimbRate,
     Damping,
     DampingChoice,
+    Formats,
     Method,
     MethodChoice,
     ModelChoice,
@@ -24,6 +26,7 @@ from birdmb.cli.options import (
     StepsPerBeat,
     Tolerance,
     Topology,
+    Width,
     Workers,
 )
 from birdmb.cli.outcome import reported
@@ -163,13 +166,15 @@ def plot(
         Path,
         typer.Option(
             metavar="DIR",
-            help="Write the figures (PNG) and the dataset (NetCDF) into this directory.",
+            help="Write the figures and the dataset (NetCDF) into this directory.",
             show_default="the current one",
         ),
     ] = Path(),
+    formats: Formats = None,
+    width: Width = None,
 ) -> None:
     """Draw a sweep (lines over one parameter, maps over two), a branch or a limit cycle."""
     with reported():
         from birdmb.cli.plot import run  # noqa: PLC0415 - slow to import
 
-        run(file, quantity or [], at or [], out)
+        run(file, quantity or [], at or [], out, requested_pictures(formats, width))

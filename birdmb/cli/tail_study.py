@@ -11,8 +11,8 @@ import typer
 import xarray as xr
 
 from birdmb.cli.console import messages
-from birdmb.cli.drawing import plain_style
-from birdmb.cli.files import prepare, reject_overwriting, write_dataset, write_figure
+from birdmb.cli.drawing import Pictures
+from birdmb.cli.files import prepare, reject_overwriting, write_dataset
 from birdmb.cli.outcome import InputError
 from birdmb.cli.progress import Progress
 from birdmb.cli.sweep import SweepProgress, ignored_springs
@@ -47,6 +47,7 @@ def run(
     every: int,
     workers: int | None,
     out: Path | None,
+    pictures: Pictures,
 ) -> None:
     """Fill the store, say what it holds, and draw it.
 
@@ -85,8 +86,8 @@ def run(
     for row in price_of_stability(data, limits=limits):
         typer.echo(priced(row))
     if out is not None:
-        with plain_style():
-            _draw(bird, data, store, out, limits, trim, console)
+        with pictures.style():
+            _draw(bird, data, store, out, limits, trim, pictures, console)
 
 
 def _draw(
@@ -96,6 +97,7 @@ def _draw(
     out: Path,
     limits: Mapping[str, float],
     trim: Mapping[str, tuple[float, float]] | None,
+    pictures: Pictures,
     console: Console,
 ) -> None:
     """Write figures and dataset, and say at which openings flight becomes stable."""
@@ -110,7 +112,8 @@ def _draw(
         curves = _curves(bird, data, trim)
         figures["stability_opening"] = plot_stability_openings(curves, bird.name)
     for name, figure in figures.items():
-        typer.echo(f"wrote {write_figure(out / f'{store.stem}_{name}.png', figure)}")
+        for path in pictures.write(out, f"{store.stem}_{name}", figure):
+            typer.echo(f"wrote {path}")
     typer.echo(f"wrote {write_dataset(out / f'{store.stem}.nc', data)}")
     for each in curves:
         typer.echo("\n".join(_traced(each)))

@@ -2,7 +2,8 @@
 
 Nothing that computes imports it: results draw themselves by a call that their `plot` imports when
 it is called. A function `plot_...` returns a `matplotlib.figure.Figure`, which `savefig` writes to
-a file and a notebook shows as it is; no window and no pyplot is involved. A function `draw_...`
+a file, a notebook shows as a cell's last line, and `pyplot.show` shows where pyplot was imported
+and has a screen. Within `paper(width="90mm")` figures fit a paper's column. A function `draw_...`
 draws into axes that it is given.
 """
 

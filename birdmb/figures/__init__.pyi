@@ -6,6 +6,7 @@ from .loads import plot_loads_and_power
 from .multipliers import plot_multipliers
 from .orbit import plot_orbit, plot_response
 from .overview import plot_overview
+from .page import paper
 from .parameter_study import plot_multiplier_locus, plot_performance
 from .perturbed_flight import plot_perturbed_flight
 from .states import plot_states
@@ -16,6 +17,7 @@ from .validity import plot_validity
 from .wing import plot_wing_phases
 
 __all__ = [
+    "paper",
     "plot_bird_branch",
     "plot_branch",
     "plot_envelope",

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Callable
 from functools import partial
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
-from birdmb.figures.style import BIFURCATION_MARKERS, VERDICT_COLOURS
+from birdmb.figures.labels import MODULUS, parameter_label
+from birdmb.figures.page import columns_of, new_figure, panels, title
+from birdmb.figures.style import BIFURCATION_MARKERS, LEVEL
+from birdmb.figures.verdicts import THIN, draw_curve, verdict_handles
 from birdmb.orbits import Branch, BranchPoint
 from birdmb.quantities import BY_NAME
 from birdmb.studies.validity import LARGEST_ANGLE
@@ -24,41 +26,46 @@ _ANGLE = "largest_angle_of_attack"
 def plot_bird_branch(branch: Branch) -> Figure:
     """Draw speed, moduli of the multipliers and angle of attack over the parameter of a branch.
 
-    Stable flights are blue, unstable ones red, undecided ones grey; what is located between them is
-    marked. Flights whose effective angle of attack leaves the model's validity are drawn thin.
+    Stable flights are drawn through, unstable ones dashed, undecided ones dotted; what is located
+    between them is marked. Flights whose effective angle of attack leaves the model's validity are
+    drawn thin.
 
     Args:
         branch: what `bird_branch` returned.
     """
-    figure = Figure(figsize=(8, 9), layout="constrained")
-    rows = figure.subplots(3, 1, sharex=True)
+    figure = new_figure(8, 9, rows=3)
+    rows = panels(figure, 3, 1, sharex=True)[:, 0]
     limit = float(np.degrees(LARGEST_ANGLE))
-    _draw(rows[0], branch, _speed)
+    draw_curve(rows[0], branch, _speed, _valid)
     for i in _those_that_last(branch):
-        _draw(rows[1], branch, partial(_modulus, i))
-    _draw(rows[2], branch, _angle)
-    rows[1].axhline(1, color="0.7", linewidth=0.8, zorder=0)
+        draw_curve(rows[1], branch, partial(_modulus, i), _valid)
+    draw_curve(rows[2], branch, _angle, _valid)
+    rows[1].axhline(1, **LEVEL)
     top = max(rows[2].get_ylim()[1], limit + 1)
     rows[2].axhspan(limit, top, color="0.93", zorder=0)
     rows[2].set_ylim(top=top)
-    rows[2].text(0.99, 0.95, "beyond the model", transform=rows[2].transAxes, ha="right", va="top")
+    handles = verdict_handles(branch)
+    if not all(map(_valid, branch.points)):
+        thin = "thin: beyond the model (shaded)"
+        handles.append(Line2D([], [], color="0.2", lw=THIN, label=thin))
     for found in branch.bifurcations:
         marker = BIFURCATION_MARKERS[found.kind]
-        label = f"{found.kind}, {found.parameter:.4g}"
-        rows[0].plot(found.parameter, _speed(found.point), marker, color="k", label=label)
+        label = f"{found.kind} at {found.parameter:.4g}"
+        (mark,) = rows[0].plot(found.parameter, _speed(found.point), marker, color="k", label=label)
+        handles.append(mark)
         rows[2].plot(found.parameter, _angle(found.point), marker, color="k")
         for axes in rows:
-            axes.axvline(found.parameter, color="0.8", linewidth=0.8, zorder=0)
-    for verdict in dict.fromkeys(point.stability for point in branch.points):
-        rows[0].plot([], [], "-", color=VERDICT_COLOURS[verdict], label=verdict)
-    rows[0].legend(fontsize="small")
-    rows[0].set(
-        ylabel=BY_NAME["mean_speed"].axis_label,
-        title=in_figure(str(branch.settings.get("bird", ""))),
-    )
-    rows[1].set(ylabel="|Λ|")
+            axes.axvline(found.parameter, **LEVEL)
+    figure.legend(
+        handles=handles, loc="outside lower center", frameon=False, fontsize="small",
+        ncols=columns_of([handle.get_label() for handle in handles], 3),
+    )  # fmt: skip
+    title(figure, in_figure(str(branch.settings.get("bird", ""))))
+    rows[0].set_ylabel(BY_NAME["mean_speed"].axis_label)
+    rows[1].set_ylabel(MODULUS)
     rows[2].set_ylabel("largest effective\n" + BY_NAME["largest_angle_of_attack"].axis_label)
-    rows[2].set_xlabel(in_figure(branch.parameter_name))
+    rows[2].set_xlabel(parameter_label(branch.parameter_name))
+    figure.align_ylabels(rows)
     low, high = branch.parameters.min(), branch.parameters.max()
     if low > 0 and high > _WIDE * low:
         _make_logarithmic(rows[2], low, high)
@@ -83,20 +90,8 @@ def _those_that_last(branch: Branch) -> list[int]:
     return [int(i) for i in np.flatnonzero(moduli.max(axis=0) > 1e-3)]
 
 
-def _draw(axes: Axes, branch: Branch, value: Callable[[BranchPoint], float]) -> None:
-    for i, (before, after) in enumerate(itertools.pairwise(branch.points)):
-        # A change of verdict shows where it was located, else at the point that shows it first.
-        between = [found.point for found in branch.bifurcations if found.after == i]
-        for ends in itertools.pairwise([before, *between, after]):
-            shows = before if between and ends[0] is before else after
-            valid = all(point.observables[_ANGLE] <= LARGEST_ANGLE for point in ends)
-            axes.plot(
-                [point.parameter for point in ends],
-                [value(point) for point in ends],
-                "-",
-                color=VERDICT_COLOURS[shows.stability],
-                linewidth=2.0 if valid else 0.8,
-            )
+def _valid(point: BranchPoint) -> bool:
+    return point.observables[_ANGLE] <= LARGEST_ANGLE
 
 
 def _make_logarithmic(axes: Axes, low: float, high: float) -> None:

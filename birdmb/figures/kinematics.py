@@ -9,7 +9,9 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
-from birdmb.figures.style import DRIVER, LINE
+from birdmb.figures.labels import in_words
+from birdmb.figures.page import columns_of, is_narrow, new_figure, panels, title
+from birdmb.figures.style import BLUE, DRIVER, GREEN, LINE, VERMILION
 from birdmb.kinematics import KinematicsFit
 from birdmb.text import in_figure
 
@@ -17,7 +19,7 @@ _INSTANTS = 200
 _COLUMNS = 3
 _SAMPLE: dict[str, Any] = {"ls": "", "marker": ".", "ms": 2.0, "alpha": 0.5, "zorder": 1}
 _DIRECTIONS = {"forward": (0, 1.0), "right": (1, 1.0), "up": (2, -1.0)}
-_COLOURS = ("tab:blue", "tab:orange", "tab:green")
+_STYLES = ((BLUE, "-"), (VERMILION, "--"), (GREEN, "-."))
 
 
 def plot_kinematics(fit: KinematicsFit) -> Figure:
@@ -28,8 +30,10 @@ def plot_kinematics(fit: KinematicsFit) -> Figure:
     """
     points = [name for name in fit.markers if name not in fit.bird.joint_names]
     groups = [list(fit.bird.joint_names), points] if points else [list(fit.bird.joint_names)]
-    rows = [-(-len(names) // _COLUMNS) for names in groups]
-    figure = Figure(figsize=(10.5, 0.8 + 1.9 * sum(rows)), layout="constrained")
+    columns = 1 if is_narrow() else _COLUMNS
+    rows = [-(-len(names) // columns) for names in groups]
+    wide, high = (3.5, 1.0) if is_narrow() else (10.5, 1.9)
+    figure = new_figure(wide, 0.8 + high * sum(rows), rows=sum(rows), columns=columns)
     parts = figure.subfigures(len(groups), 1, squeeze=False, height_ratios=rows)[:, 0]
     for name, axes in zip(groups[0], _panels(parts[0], rows[0], len(groups[0])), strict=True):
         _draw_joint(axes, fit, name)
@@ -39,26 +43,27 @@ def plot_kinematics(fit: KinematicsFit) -> Figure:
     if points:
         _legend(parts[-1])
     beats = f"{fit.beats} beats" if fit.beats != 1 else "1 beat"
-    figure.suptitle(
+    title(
+        figure,
         f"{in_figure(fit.bird.name)}: {beats} at {fit.frequency:.4g} Hz, measured (dots) and "
         "fitted (lines)",
-        fontsize="medium",
     )
     return figure
 
 
 def _panels(figure: SubFigure, rows: int, count: int) -> list[Axes]:
-    panels = list(figure.subplots(rows, _COLUMNS, sharex=True, squeeze=False).ravel())
-    for axes in panels[count:]:
-        axes.set_visible(False)
-    for place, axes in enumerate(panels[:count]):
+    columns = 1 if is_narrow() else _COLUMNS
+    all_panels = list(panels(figure, rows, columns, sharex=True).ravel())
+    for axes in all_panels[count:]:
+        axes.remove()
+    for place, axes in enumerate(all_panels[:count]):
         axes.set_xlim(0.0, 1.0)
         axes.spines[["top", "right"]].set_visible(False)
-        if place + _COLUMNS >= count:
+        if place + columns >= count:
             axes.set_xlabel("time (beats)")
             axes.tick_params(labelbottom=True)
     figure.align_ylabels()
-    return panels[:count]
+    return all_panels[:count]
 
 
 def _legend(figure: SubFigure) -> None:
@@ -68,8 +73,8 @@ def _legend(figure: SubFigure) -> None:
         handles, labels = axes.get_legend_handles_labels()
         named |= {str(label): handle for label, handle in zip(labels, handles, strict=True)}
     figure.legend(
-        [*named.values()], [*named], loc="outside upper right", ncols=3, frameon=False,
-        fontsize="small",
+        [*named.values()], [*named], loc="outside upper right", frameon=False,
+        fontsize="small", ncols=columns_of([*named], 3),
     )  # fmt: skip
 
 
@@ -96,11 +101,12 @@ def _draw_marker(axes: Axes, fit: KinematicsFit, name: str) -> None:
     column = fit.column(name)
     phases = np.mod(fit.phases, 1.0)
     order = np.argsort(phases)
-    for (direction, (axis, sign)), colour in zip(_DIRECTIONS.items(), _COLOURS, strict=True):
+    for (direction, (axis, sign)), style in zip(_DIRECTIONS.items(), _STYLES, strict=True):
+        colour, dashes = style
         measured = 1e3 * sign * fit.measured[:, column + axis]
         fitted = 1e3 * sign * fit.fitted[:, column + axis]
         axes.plot(phases, measured, color=colour, **_SAMPLE)
-        axes.plot(phases[order], fitted[order], color=colour, lw=1.0, label=direction)
+        axes.plot(phases[order], fitted[order], color=colour, ls=dashes, lw=1.0, label=direction)
     residual = 1e3 * fit.markers[name].residual
-    axes.set_ylabel(f"{in_figure(name)} (mm)")
+    axes.set_ylabel(f"{in_words(name).replace(' ', chr(10))} (mm)")
     axes.set_title(f"residual {residual:.3g} mm", fontsize="small", loc="right", pad=2)

@@ -5,14 +5,23 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
-from birdmb.figures.style import LINE, MEAN, beat_axis, label_beat, show_no_round_off, title_of
-from birdmb.text import in_figure
+from birdmb.figures.labels import in_words
+from birdmb.figures.page import columns_of, new_figure, parts, title
+from birdmb.figures.style import (
+    LEVEL,
+    LINE,
+    MEAN,
+    SERIES,
+    beat_axis,
+    beat_label,
+    show_no_round_off,
+    title_of,
+)
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
@@ -23,16 +32,16 @@ _NOTHING = 1e-6  # of a typical size
 
 def plot_loads_and_power(cycle: FlightCycle) -> Figure:
     """Draw thrust, lift and pitching moment, and the power of the wings and of the joints."""
-    figure = Figure(figsize=(10, 6.2), layout="constrained")
-    left, right = figure.subfigures(1, 2, squeeze=False, width_ratios=(1, 1.15))[0]
+    figure = new_figure(10, 6.2, rows=3, columns=2)
+    left, right = parts(figure, (1, 1.15), (1, 1.1))
     loads = left.subplots(3, 1, sharex=True)
     draw_loads(loads, cycle)
-    label_beat(loads[-1], cycle)
+    loads[-1].set_xlabel(beat_label(cycle))
     top, bottom = right.subplots(2, 1, sharex=True, height_ratios=(1, 1.5))
     draw_wing_power(top, cycle)
     draw_joint_powers(bottom, cycle)
-    label_beat(bottom, cycle)
-    figure.suptitle(f"{title_of(cycle)}: loads and power over a beat", fontsize="medium")
+    bottom.set_xlabel(beat_label(cycle))
+    title(figure, f"{title_of(cycle)}: loads and power over a beat")
     return figure
 
 
@@ -66,15 +75,14 @@ def draw_wing_power(axes: Axes, cycle: FlightCycle) -> None:
 def draw_joint_powers(axes: Axes, cycle: FlightCycle) -> None:
     """Draw joint torque times joint rate, both wings together, with the means in the legend."""
     beat_axis(axes, cycle)
-    colours = matplotlib.colormaps["tab10"].colors  # type: ignore[attr-defined]
-    axes.axhline(0, color="0.7", lw=0.8)
+    axes.set_prop_cycle(SERIES)
+    axes.axhline(0, **LEVEL)
     for i, (name, mean) in enumerate(cycle.joint_powers.items()):
         axes.plot(
             cycle.beat.times,
             cycle.beat.joint_power[:, i],
-            color=colours[i % len(colours)],
             lw=1.3,
-            label=f"{in_figure(name)}  {mean:+.2f} W".replace("-", "−"),
+            label=f"{in_words(name)}  {mean:+.2f} W".replace("-", "−"),
         )
     axes.set_ylabel("joint power (W)")
     axes.legend(
@@ -82,7 +90,7 @@ def draw_joint_powers(axes: Axes, cycle: FlightCycle) -> None:
         fontsize="small",
         loc="upper center",
         bbox_to_anchor=(0.5, -0.18),
-        ncols=2,
+        ncols=columns_of([*cycle.joint_powers], 2),
         title="mean over the beat",
         title_fontsize="small",
     )
@@ -94,7 +102,7 @@ def _with_mean(axes: Axes, times: FloatArray, values: FloatArray, unit: str, siz
     # A balance that holds to the orbit's residual.
     if abs(mean) < 1e-4 * max(float(np.ptp(values)), _NOTHING * size):
         mean = 0.0
-    axes.axhline(0, color="0.7", lw=0.8)
+    axes.axhline(0, **LEVEL)
     axes.plot(times, values, color=LINE)
     label = f"mean {mean:.3g} {unit}".replace("-", "−").strip()
     axes.axhline(mean, color=MEAN, ls="--", lw=1.2, label=label)

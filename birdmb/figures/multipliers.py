@@ -10,7 +10,9 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from birdmb._typing import ComplexArray, FloatArray
-from birdmb.figures.style import STABLE_COLOUR, UNSTABLE_COLOUR, title_of
+from birdmb.figures.labels import IMAGINARY, REAL
+from birdmb.figures.page import new_figure, title
+from birdmb.figures.style import LEVEL, STABLE_COLOUR, UNSTABLE_COLOUR, VERDICT_MARKERS, title_of
 
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
@@ -21,32 +23,40 @@ _CROWDED = 0.06
 
 def plot_multipliers(cycle: FlightCycle) -> Figure:
     """Draw the multipliers in the unit circle, with error discs, moduli and doubling times."""
-    figure = Figure(figsize=(6.4, 5.6), layout="constrained")
+    figure = new_figure(6.4, 5.6)
     draw_labelled_multipliers(figure.subplots(), cycle)
-    figure.suptitle(f"{title_of(cycle)}: Floquet multipliers", fontsize="medium")
+    title(figure, f"{title_of(cycle)}: Floquet multipliers")
     return figure
 
 
 def draw_multipliers(axes: Axes, multipliers: ComplexArray, errors: FloatArray) -> None:
-    """Draw multipliers (n,) in the complex plane, with their error bounds as discs."""
+    """Draw multipliers (n,) in the complex plane, with their error bounds as discs.
+
+    Those outside the unit circle are triangles, those on it within their error grey squares.
+    """
     axes.add_patch(Circle((0, 0), 1, fill=False, color="0.6"))
-    inside = np.abs(multipliers) <= 1
-    for keep, colour in ((inside, STABLE_COLOUR), (~inside, UNSTABLE_COLOUR)):
-        axes.plot(multipliers[keep].real, multipliers[keep].imag, "o", color=colour)
+    outside, known = np.abs(multipliers) - 1.0, np.nan_to_num(errors, posinf=np.inf)
+    for verdict, keep in (
+        ("stable", outside < -known),
+        ("unstable", outside > known),
+        ("undecided", np.abs(outside) <= known),
+    ):
+        shown = multipliers[keep]
+        axes.plot(shown.real, shown.imag, **VERDICT_MARKERS[verdict])
     for value, error in zip(multipliers, errors, strict=True):
         if np.isfinite(error):
             axes.add_patch(Circle((value.real, value.imag), error, color="0.5", alpha=0.3))
     reach = 1.1 * max(1.0, float(np.abs(multipliers).max()))
     axes.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal")
-    axes.set(xlabel="Re Λ", ylabel="Im Λ", title="Floquet multipliers")
+    axes.set(xlabel=REAL, ylabel=IMAGINARY, title="Floquet multipliers")
 
 
 def draw_labelled_multipliers(axes: Axes, cycle: FlightCycle) -> None:
     """Draw the multipliers, each with its modulus and doubling or halving time beside it."""
     draw_multipliers(axes, cycle.multipliers, cycle.verdict_errors)
     axes.set_title("")
-    axes.axhline(0, color="0.9", lw=0.8, zorder=0)
-    axes.axvline(0, color="0.9", lw=0.8, zorder=0)
+    axes.axhline(0, **LEVEL)
+    axes.axvline(0, **LEVEL)
     axes.spines[["top", "right"]].set_visible(False)
     reach = max(1.0, float(np.abs(cycle.multipliers).max()))
     right = max(1.0, float(cycle.multipliers.real.max()))

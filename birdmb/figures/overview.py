@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from birdmb.figures.loads import draw_loads, draw_wing_power
 from birdmb.figures.multipliers import draw_labelled_multipliers
+from birdmb.figures.page import is_narrow, new_figure, parts, title
 from birdmb.figures.states import draw_states
-from birdmb.figures.style import label_beat, title_of
+from birdmb.figures.style import beat_label, title_of
 from birdmb.figures.wing import OBLIQUE, draw_wing_phases
 from birdmb.quantities import quantities
 
@@ -23,21 +23,29 @@ _SHOWN = ("mean_speed", "mean_climb_rate", "power", "potential_power", "correcte
 
 def plot_overview(cycle: FlightCycle) -> Figure:
     """Draw the wings at four phases, states, loads, power and multipliers on one page (16:9)."""
-    layout = ConstrainedLayoutEngine(w_pad=0.1, h_pad=0.06)
-    figure = Figure(figsize=(16, 9), layout=layout)
-    top, bottom = figure.subfigures(2, 1, squeeze=False, height_ratios=(1, 2.1))[:, 0]
+    states = len(cycle.model.motion_state_names)
+    if is_narrow():
+        heights = (3.6, 0.95 * states, 3.8, 4.2)
+        figure = new_figure(3.5, sum(heights), rows=int(sum(heights)))
+        top, left, middle, right = parts(figure, heights, heights)
+    else:
+        figure = new_figure(16, 9)
+        figure.set_layout_engine("constrained", w_pad=0.1, h_pad=0.06)
+        top, bottom = figure.subfigures(2, 1, squeeze=False, height_ratios=(1, 2.1))[:, 0]
+        left, middle, right = parts(bottom, (1.4, 1, 0.95), (1, 1, 1))
     draw_wing_phases(top, cycle, (OBLIQUE,))
-    left, middle, right = bottom.subfigures(1, 3, squeeze=False, width_ratios=(1.4, 1, 0.95))[0]
     draw_states(left, cycle)
     *loads, power = middle.subplots(4, 1, sharex=True)
     draw_loads(loads, cycle)
     draw_wing_power(power, cycle)
-    label_beat(power, cycle)
+    power.set_xlabel(beat_label(cycle))
     middle.align_ylabels()
     circle, numbers = right.subplots(2, 1, height_ratios=(1.7, 1))
     draw_labelled_multipliers(circle, cycle)
     _write_numbers(numbers, cycle)
-    top.suptitle(f"{title_of(cycle)}: {_verdict(cycle)}", fontsize="large")
+    title(
+        top, f"{title_of(cycle)}: {_verdict(cycle)}", fontsize="medium" if is_narrow() else "large"
+    )
     return figure
 
 

@@ -10,7 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from birdmb.figures.style import LINE, STABLE_COLOUR, UNSTABLE_COLOUR
+from birdmb.figures.labels import IMAGINARY, MODULUS, REAL, parameter_label
+from birdmb.figures.page import label_x, new_figure, panels, title
+from birdmb.figures.style import LEVEL, LINE, STABLE_COLOUR, UNSTABLE_COLOUR
 from birdmb.quantities import quantities
 from birdmb.text import in_figure
 
@@ -23,20 +25,19 @@ def plot_performance(study: xr.Dataset) -> Figure:
     The axis is the dimension of the study: another coordinate may be made it by `swap_dims`. Open
     markers are cycles outside the model's validity.
     """
-    figure = Figure(figsize=(9, 5.6), layout="constrained")
-    panels = figure.subplots(2, 2, sharex=True)
+    figure = new_figure(9, 5.6, rows=2, columns=2)
+    rows = panels(figure, 2, 2, sharex=True)
     parameter, valid = _parameter(study), study["warning"].values == ""
-    for axes, quantity in zip(panels.ravel(), _ROWS, strict=True):
+    for axes, quantity in zip(rows.ravel(), _ROWS, strict=True):
         shown = np.array([quantity.shown(value) for value in study[quantity.name].values])
         axes.plot(study[parameter], shown, "-", color=LINE)
         for inside, face in ((valid, LINE), (~valid, "w")):
-            axes.plot(study[parameter][inside], shown[inside], "o", **_marker(LINE, face))
+            axes.plot(study[parameter][inside], shown[inside], **_marker("o", LINE, face))
         if quantity.name in ("mean_climb_rate", "path_angle"):
-            axes.axhline(0, color="0.7", lw=0.8, zorder=0)
+            axes.axhline(0, **LEVEL)
         axes.set_ylabel(quantity.axis_label)
         axes.spines[["top", "right"]].set_visible(False)
-    for axes in panels[-1]:
-        axes.set_xlabel(_label(study))
+    label_x(rows, _label(study))
     figure.align_ylabels()
     _title(figure, study, "mean flight of the limit cycles")
     return figure
@@ -47,20 +48,20 @@ def plot_multiplier_locus(study: xr.Dataset) -> Figure:
 
     Axis and open markers as in `plot_performance`.
     """
-    figure = Figure(figsize=(10, 4.6), layout="constrained")
-    left, right = figure.subplots(1, 2)
+    figure = new_figure(10, 4.6, columns=2)
+    left, right = panels(figure, 1, 2)[0]
     values = study["multiplier_real"].values + 1j * study["multiplier_imag"].values
     moduli = np.abs(values)
     over = np.broadcast_to(study[_parameter(study)].values[:, None], moduli.shape)
-    left.axhline(1, color="0.6", lw=1)
+    left.axhline(1, **LEVEL)
     valid = np.broadcast_to(study["warning"].values[:, None] == "", moduli.shape)
-    for stable, colour in ((True, STABLE_COLOUR), (False, UNSTABLE_COLOUR)):
+    for stable, marker, colour in ((True, "o", STABLE_COLOUR), (False, "^", UNSTABLE_COLOUR)):
         shown = (moduli <= 1) == stable
-        label = "|Λ| ≤ 1" if stable else "|Λ| > 1"
+        label = f"{MODULUS} ≤ 1" if stable else f"{MODULUS} > 1"
         for where, face in ((valid & shown, colour), (~valid & shown, "w")):
-            left.plot(over[where], moduli[where], "o", **_marker(colour, face))
-        left.plot([], [], "o", label=label, **_marker(colour, colour))
-    left.set(xlabel=_label(study), ylabel="|Λ|", ylim=(0, None))
+            left.plot(over[where], moduli[where], **_marker(marker, colour, face))
+        left.plot([], [], label=label, **_marker(marker, colour, colour))
+    left.set(xlabel=_label(study), ylabel=MODULUS, ylim=(0, None))
     left.locator_params(axis="x", nbins=6)
     left.legend(frameon=False, loc="best")
     left.spines[["top", "right"]].set_visible(False)
@@ -71,25 +72,25 @@ def plot_multiplier_locus(study: xr.Dataset) -> Figure:
 
 
 def _draw_plane(axes: Axes, values: np.ndarray, over: np.ndarray) -> None:
-    axes.axhline(0, color="0.9", lw=0.8, zorder=0)
-    axes.axvline(0, color="0.9", lw=0.8, zorder=0)
+    axes.axhline(0, **LEVEL)
+    axes.axvline(0, **LEVEL)
     axes.add_patch(Circle((0, 0), 1, fill=False, color="0.6"))
     axes.scatter(values.real, values.imag, c=over, s=22, cmap="viridis", zorder=3)
     reach = 1.08 * max(1.0, float(np.nanmax(np.abs(values.imag))))
     furthest = max(1.0, float(np.nanmax(values.real)))
     nearest = min(-1.0, float(np.nanmin(values.real)))
     axes.set(xlim=(nearest - 0.08, furthest + 0.08), ylim=(-reach, reach), aspect="equal")
-    axes.set(xlabel="Re Λ", ylabel="Im Λ")
+    axes.set(xlabel=REAL, ylabel=IMAGINARY)
     axes.spines[["top", "right"]].set_visible(False)
 
 
-def _marker(colour: str, face: str) -> dict[str, Any]:
-    return {"color": colour, "markerfacecolor": face, "markersize": 4.5}
+def _marker(marker: str, colour: str, face: str) -> dict[str, Any]:
+    return {"ls": "", "marker": marker, "color": colour, "mfc": face, "ms": 4.5}
 
 
 def _title(figure: Figure, study: xr.Dataset, what: str) -> None:
     outside = " (open: outside the model's validity)" if (study["warning"] != "").any() else ""
-    figure.suptitle(f"{in_figure(study.attrs['bird'])}: {what}{outside}", fontsize="medium")
+    title(figure, f"{in_figure(study.attrs['bird'])}: {what}{outside}")
 
 
 def _parameter(study: xr.Dataset) -> str:
@@ -97,6 +98,4 @@ def _parameter(study: xr.Dataset) -> str:
 
 
 def _label(study: xr.Dataset) -> str:
-    name = _parameter(study)
-    units = study[name].attrs.get("units", "")
-    return f"{in_figure(name.removesuffix('_deg'))} (°)" if units == "deg" else in_figure(name)
+    return parameter_label(_parameter(study))

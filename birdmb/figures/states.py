@@ -8,13 +8,14 @@ import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
 from birdmb._typing import FloatArray
+from birdmb.figures.labels import state_symbol
+from birdmb.figures.page import label_x, new_figure, panels, title
 from birdmb.figures.style import (
     DRIVER,
     LINE,
     beat_axis,
-    label_beat,
+    beat_label,
     show_no_round_off,
-    symbol,
     title_of,
 )
 from birdmb.quantities import IN_DEGREES
@@ -35,9 +36,9 @@ def plot_states(cycle: FlightCycle) -> Figure:
     Those of the air's memory are left out.
     """
     rows = len(cycle.model.motion_state_names) // 2
-    figure = Figure(figsize=(8.5, 0.7 + 1.75 * rows), layout="constrained")
+    figure = new_figure(8.5, 0.7 + 1.75 * rows, rows=rows, columns=2)
     draw_states(figure, cycle)
-    figure.suptitle(f"{title_of(cycle)}: states over a beat", fontsize="medium")
+    title(figure, f"{title_of(cycle)}: states over a beat")
     return figure
 
 
@@ -46,8 +47,8 @@ def draw_states(figure: Figure | SubFigure, cycle: FlightCycle) -> None:
     units = cycle.model.state_units
     moving = cycle.model.motion_state_names
     names = [*_ORDER_OF_BODY, *(name for name in moving if name not in _ORDER_OF_BODY)]
-    axes = figure.subplots(len(names) // 2, 2, sharex=True).ravel()
-    for name, ax in zip(names, axes, strict=True):
+    axes = panels(figure, len(names) // 2, 2, sharex=True)
+    for name, ax in zip(names, axes.ravel(), strict=True):
         at = cycle.state_names.index(name)
         unit = units[at]
         scale = np.degrees(1.0) if unit in IN_DEGREES else 1.0
@@ -60,15 +61,14 @@ def draw_states(figure: Figure | SubFigure, cycle: FlightCycle) -> None:
         ax.set_ylabel(f"{_label(name)} ({IN_DEGREES.get(unit, unit)})")
         if driver is not None and not name.endswith(_RATE):
             ax.legend(frameon=False, fontsize="small", loc="best", handlelength=1.8)
-    for ax in axes[-2:]:
-        label_beat(ax, cycle)
+    label_x(axes, beat_label(cycle))
     figure.align_ylabels()
 
 
 def _label(name: str) -> str:
     """Name of a state; the place and the motion of a joint on lines of their own."""
     if not name.endswith(_RATE):
-        return symbol(name).replace(".", "\n")
+        return state_symbol(name).replace(".", "\n")
     joint, side = split_side(name.removesuffix(_RATE))
     place, _, motion = joint.partition(".")
     lines = [place, f"{motion} rate", side]

@@ -1,11 +1,15 @@
-"""What figures share: colours and markers, the axis of the beat, and which part is downstroke."""
+"""What figures share: colours, dashes and markers, and the axis of the beat."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
+import matplotlib
 import numpy as np
+from cycler import cycler
 from matplotlib.axes import Axes
+from matplotlib.colors import to_hex
 
 from birdmb._typing import FloatArray
 from birdmb.text import in_figure
@@ -13,11 +17,32 @@ from birdmb.text import in_figure
 if TYPE_CHECKING:
     from birdmb.models import FlightCycle
 
-LINE = "tab:blue"
+# Colours that the colour-blind tell apart (Okabe & Ito 2008), of different greys where lines meet.
+BLACK, BLUE, VERMILION, GREEN = "k", "#0072B2", "#D55E00", "#009E73"
+PURPLE, ORANGE, SKY = "#CC79A7", "#E69F00", "#56B4E9"
+# Lines of one panel that are alike in kind: told apart without their colours, too.
+_DASHES: tuple[Any, ...] = (
+    *("-", (0, (5, 2)), (0, (1, 1.2)), (0, (7, 1.5, 1, 1.5))),
+    *((0, (7, 1.5, 1, 1.5, 1, 1.5)), (0, (10, 3)), (0, (3, 1, 3, 3))),
+)
+SERIES = cycler(color=(BLUE, VERMILION, GREEN, BLACK, PURPLE, ORANGE, SKY), linestyle=_DASHES)
+_MARKERS = ("o", "^", "s", "D", "v", "P", "X")
+
+LINE: Any = BLUE
 DRIVER = "0.35"
-MEAN = "tab:orange"
-STABLE_COLOUR, UNSTABLE_COLOUR = "tab:blue", "tab:red"
-VERDICT_COLOURS = {"stable": STABLE_COLOUR, "unstable": UNSTABLE_COLOUR, "undecided": "0.5"}
+MEAN = VERMILION
+STABLE_COLOUR, UNSTABLE_COLOUR = BLUE, VERMILION
+# As in bifurcation diagrams: what is stable is drawn through, what is not is dashed.
+VERDICT_LINES: Mapping[str, dict[str, Any]] = {
+    "stable": {"color": STABLE_COLOUR, "ls": "-"},
+    "unstable": {"color": UNSTABLE_COLOUR, "ls": (0, (4, 1.5))},
+    "undecided": {"color": "0.45", "ls": (0, (1, 1.2))},
+}
+VERDICT_MARKERS: Mapping[str, dict[str, Any]] = {
+    "stable": {"color": STABLE_COLOUR, "marker": "o", "ls": ""},
+    "unstable": {"color": UNSTABLE_COLOUR, "marker": "^", "ls": ""},
+    "undecided": {"color": "0.45", "marker": "s", "ls": ""},
+}
 BIFURCATION_MARKERS = {
     "fold": "o",
     "period doubling": "s",
@@ -25,13 +50,12 @@ BIFURCATION_MARKERS = {
     "branch point": "x",
     "multiple": "*",
 }
+# A level to compare with: zero, the unit circle, a limit.
+LEVEL: Mapping[str, Any] = {"color": "0.7", "lw": 0.8, "zorder": 0}
 _SHADE = "0.92"
 # Of the typical size of what is drawn; an axis over less shows the round-off of what is steady.
 _LEAST_RANGE = 1e-3
 _STILL = 1e-6  # rad in a beat
-
-# In place of "theta", say, as the text in a picture.
-_SYMBOLS = {"theta": "θ", "phi": "φ"}
 
 
 def title_of(cycle: FlightCycle) -> str:
@@ -39,9 +63,13 @@ def title_of(cycle: FlightCycle) -> str:
     return in_figure(cycle.model.bird.name)
 
 
-def symbol(name: str) -> str:
-    """Name of a state as it is written in a figure."""
-    return _SYMBOLS.get(name, in_figure(name))
+def families(count: int, *, markers: bool = False) -> list[dict[str, Any]]:
+    """Styles of lines over the values of a parameter, dark to bright, no two of one dash."""
+    shades = matplotlib.colormaps["viridis"](np.linspace(0.0, 0.8, max(count, 1)))
+    styles: list[dict[str, Any]] = [{"color": to_hex(shade)} for shade in shades]
+    for i, style in enumerate(styles):
+        style["marker" if markers else "ls"] = (_MARKERS if markers else _DASHES)[i % len(_DASHES)]
+    return styles
 
 
 def stroke_speed(cycle: FlightCycle) -> FloatArray:
@@ -75,10 +103,9 @@ def beat_axis(axes: Axes, cycle: FlightCycle) -> None:
     axes.margins(y=0.08)
 
 
-def label_beat(axes: Axes, cycle: FlightCycle) -> None:
-    """Write under an axis over the beat what it shows."""
-    glides = holds_still(cycle)
-    axes.set_xlabel("time (s)" if glides else "time (s), downstroke shaded")
+def beat_label(cycle: FlightCycle) -> str:
+    """Label of an axis over the beat, with the meaning of its shade."""
+    return "time (s)" if holds_still(cycle) else "time (s), downstroke shaded"
 
 
 def holds_still(cycle: FlightCycle) -> bool:

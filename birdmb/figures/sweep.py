@@ -12,8 +12,17 @@ from matplotlib.colors import LogNorm, Normalize, TwoSlopeNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
+from matplotlib.patheffects import withStroke
 
-from birdmb.figures.style import LINE, STABLE_COLOUR, UNSTABLE_COLOUR
+from birdmb.figures.labels import (
+    LARGEST_MODULUS,
+    as_shown,
+    parameter_label,
+    quantity_label,
+    setting,
+)
+from birdmb.figures.page import columns_of, new_figure, panels, title
+from birdmb.figures.style import LEVEL, LINE, VERDICT_MARKERS
 from birdmb.quantities import BY_NAME
 from birdmb.studies.sweeps.errors import SweepError
 from birdmb.studies.sweeps.verdicts import verdict_lines
@@ -27,35 +36,27 @@ OVERVIEW = (
     "power",
     "cost_of_transport",
 )
-_LABELS = {"largest_modulus": "|Λ|max", "time_constant": "time constant (s)"}
-_UNITS = {
-    "stiffness": "N m/rad",
-    "damping": "N m s/rad",
-    "mass": "kg",
-    "frequency": "Hz",
-} | dict.fromkeys(("x", "y", "z", "length"), "m")
-# Where it turns (red is unstable, purple sinks), and the colours on both sides, above and below.
-_TURNS = {
-    "largest_modulus": (1.0, "RdBu_r", "Reds", "Blues_r"),
-    "mean_climb_rate": (0.0, "PuOr_r", "Oranges", "Purples_r"),
-}
+# Where it turns (red is unstable, purple negative), and the colours of both sides, above and below.
+_MODULUS_TURNS = (1.0, "RdBu_r", "Reds", "Blues_r")
+_SIGN_TURNS = (0.0, "PuOr_r", "Oranges", "Purples_r")
+_MOST_TICKS = 7
+# Of time constants: fast is dark.
+_GROWTH, _DECAY = "Reds_r", "Blues_r"
+# Marks and lines that are seen on dark cells, too.
+_HALO = [withStroke(linewidth=1.6, foreground="w")]
+_MARK: dict[str, Any] = {"ls": "", "color": "k", "path_effects": _HALO}
+_COMPUTED: dict[str, Any] = {**_MARK, "marker": ".", "markersize": 2.5}
 _DECADE = 10.0  # a wider range of time constants is drawn on a logarithmic scale
 _FAILED: dict[str, Any] = {"facecolor": "0.9", "edgecolor": "0.5", "hatch": "////", "linewidth": 0}
-_BEYOND: dict[str, Any] = {"ls": "", "marker": ".", "color": "k", "markersize": 4}
-_VERDICTS = {"stable": STABLE_COLOUR, "unstable": UNSTABLE_COLOUR, "undecided": "goldenrod"}
-_UNDECIDED: dict[str, Any] = {
-    "ls": "",
-    "marker": "o",
-    "color": _VERDICTS["undecided"],
-    "markerfacecolor": "none",
-}
+_BEYOND: dict[str, Any] = {**_MARK, "marker": "x", "markersize": 4.5}
+_UNDECIDED: dict[str, Any] = {**_MARK, "marker": "s", "markerfacecolor": "none"}
 _BACKWARDS: dict[str, Any] = {"ls": "", "marker": "$<$", "color": "k", "markersize": 7}
-_JUMP: dict[str, Any] = {"color": "deeppink", "linewidth": 2.4}
+_JUMP: dict[str, Any] = {"color": "deeppink", "linewidth": 2.4, "ls": (0, (2, 0.6))}
 
 
 def plot_sweep(study: xr.Dataset, quantity: str | None, at: Mapping[str, Any]) -> Figure:
     """Draw quantities of a study's dataset; see `Study.plot`."""
-    title = in_figure(f"{study.attrs['bird']}, {study.attrs['model']}")
+    about = in_figure(f"{study.attrs['bird']}, {study.attrs['model']}")
     plane, fixed = _left(study, at)
     quantities = OVERVIEW if quantity is None else (quantity,)
     for name in quantities:
@@ -67,21 +68,23 @@ def plot_sweep(study: xr.Dataset, quantity: str | None, at: Mapping[str, Any]) -
                 f"No quantity is called {name}; there are {', '.join(map(str, known))}."
             )
     (rows, columns), two = (1, 1) if quantity else (2, 3), len(plane["power"].dims) == 2
-    figure = Figure(figsize=(5.4 * columns, 4.2 * rows), layout="constrained")
-    panels = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=two)
-    for axes, name in zip(panels.ravel(), quantities, strict=True):
+    figure = new_figure(5.4 * columns, 4.2 * rows, rows, columns)
+    grid = panels(figure, rows, columns, sharex=True, sharey=two)
+    for axes, name in zip(grid.ravel(), quantities, strict=True):
         (_draw_map if two else _draw_lines)(axes, plane, name)
-    for axes in panels[:-1].ravel():
-        axes.set_xlabel("")
-    for axes in panels[:, 1:].ravel() if two else ():
-        axes.set_ylabel("")
-    caption = [title, *fixed, *verdict_lines(plane)]
-    figure.suptitle("\n".join(caption), fontsize="medium")
+        place = axes.get_subplotspec()
+        if not place.is_last_row():
+            axes.set_xlabel("")
+        if two and not place.is_first_col():
+            axes.set_ylabel("")
+    title(figure, "\n".join([about, *fixed, *verdict_lines(plane)]))
     handles = _legend(plane)
     if handles:
+        beside = columns_of([handle.get_label() for handle in handles], 3)
         figure.legend(
-            handles=handles, loc="outside lower center", ncols=3, frameon=False, fontsize="small"
-        )
+            handles=handles, loc="outside lower center", ncols=beside, frameon=False,
+            fontsize="small",
+        )  # fmt: skip
     return figure
 
 
@@ -114,84 +117,84 @@ def _left(study: xr.Dataset, at: Mapping[str, Any]) -> tuple[xr.Dataset, list[st
     for name in left:
         if plane[name].dtype.kind in "if":
             plane = plane.sortby(name)
-    texts = [f"{_label(str(name))[0]} = {in_figure(str(value))}" for name, value in fixed.items()]
+    texts = [setting(str(name), value) for name, value in fixed.items()]
     return plane, [", ".join(texts)] if texts else []
-
-
-def parameter_label(name: str) -> str:
-    """Name of a parameter with its unit, as an axis is labelled."""
-    return _label(name)[1]
-
-
-def _label(name: str) -> tuple[str, str]:
-    """Name of a parameter without its unit, and with it."""
-    plain = in_figure(name.removesuffix("_deg"))
-    unit = "°" if name.endswith("_deg") else _UNITS.get(name.rpartition(".")[2])
-    return plain, f"{plain} ({unit})" if unit else plain
 
 
 def _places(axes: Axes, along: Literal["x", "y"], coordinate: xr.DataArray) -> np.ndarray:
     """Where the values of a parameter stand on an axis; texts and switches stand side by side."""
-    getattr(axes, f"set_{along}label")(_label(str(coordinate.name))[1])
+    getattr(axes, f"set_{along}label")(parameter_label(str(coordinate.name)))
+    axis = axes.xaxis if along == "x" else axes.yaxis
     if coordinate.dtype.kind in "if":
-        axes.locator_params(axis=along, nbins=6)
-        return np.asarray(coordinate.values, float)
+        places = np.asarray(coordinate.values, float)
+        axis.set_ticks(_apart(places))
+        axis.set_major_formatter("{x:.4g}")
+        return places
     places = np.arange(coordinate.size, dtype=float)
-    labels = [in_figure(str(value)) for value in coordinate.values]
-    getattr(axes, f"set_{along}ticks")(places, labels)
+    axis.set_ticks(places, [in_figure(str(value)) for value in coordinate.values])
     return places
 
 
-def _quantity_label(study: xr.Dataset, name: str) -> str:
-    if name in _LABELS:
-        return _LABELS[name]
-    if name in BY_NAME:
-        quantity = BY_NAME[name]
-        # The values drawn are those of the dataset.
-        return f"{quantity.label} ({quantity.unit})" if quantity.unit != "1" else quantity.label
-    units = study[name].attrs.get("units", "s" if name == "seconds" else "1")
-    plain = in_figure(name.replace("_", " "))
-    return plain if units == "1" else f"{plain} ({units})"
+def _apart(values: np.ndarray) -> list[float]:
+    """Values that labels have room at: both ends, and those far enough from the ones before."""
+    chosen = [float(values[0])]
+    room = (values[-1] - values[0]) / _MOST_TICKS
+    for value in values[1:-1]:
+        if value - chosen[-1] >= room and values[-1] - value >= room:
+            chosen.append(float(value))
+    return chosen if values.size == 1 else [*chosen, float(values[-1])]
+
+
+def _label(study: xr.Dataset, name: str) -> str:
+    unit = "s" if name == "seconds" else "°" if name.endswith("_deg") else "1"
+    return quantity_label(name, study[name].attrs.get("units", unit).replace("deg", "°"))
 
 
 def _draw_lines(axes: Axes, study: xr.Dataset, name: str) -> None:
     (parameter,) = study["power"].dims
-    x, y = _places(axes, "x", study[parameter]), study[name].values
+    x, y = _places(axes, "x", study[parameter]), as_shown(name, study[name].values)
     jump = study["sheet_jump"].sel(along=parameter).values
+    ends = jump[: x.size - 1]
+    if name == "time_constant":  # without bound where growth turns into decay
+        grows = study["largest_modulus"].values > 1
+        ends = ends | (grows[1:] != grows[:-1])
     # Where a sheet ends the line does.
-    line_x, line_y = (np.insert(a, np.flatnonzero(jump) + 1, np.nan) for a in (x, y))
-    colour = LINE if name != "largest_modulus" else "0.6"
-    axes.plot(line_x, line_y, "-", color=colour, lw=1.2, zorder=1)
-    for kind, colour in _VERDICTS.items():
+    line_x, line_y = (np.insert(a, np.flatnonzero(ends) + 1, np.nan) for a in (x, y))
+    axes.plot(line_x, line_y, "-", color=LINE if name != "largest_modulus" else "0.6", lw=1.2)
+    for kind, style in VERDICT_MARKERS.items():
         shown = study["stability"].values == kind
-        axes.plot(x[shown], y[shown], "o", color=colour, markersize=4.5)
+        axes.plot(x[shown], y[shown], markersize=4.5, **style)
     backwards = study["flight"].values == "backwards"
     if backwards.any():
         axes.plot(x[backwards], y[backwards], **_BACKWARDS)
     for i in np.flatnonzero(jump):
-        axes.axvline(0.5 * (x[i] + x[i + 1]), **_JUMP | {"linewidth": 1.2})
-    if name == "largest_modulus":
-        axes.axhline(1, color="k", lw=1)
-    if name == "mean_climb_rate":
-        axes.axhline(0, color="0.7", lw=0.8, zorder=0)
+        axes.axvline(0.5 * (x[i] + x[i + 1]), **_JUMP | {"linewidth": 1.4})
+    turn = _turn(name)
+    if turn is not None:
+        axes.axhline(turn[0], **LEVEL)
     if name == "time_constant" and np.nanmax(y, initial=0.0) > _DECADE * np.nanmin(y, initial=1.0):
         axes.set_yscale("log")
     failed = x[study["status"].values == "failed"]
     axes.plot(
         failed, np.full(failed.size, 0.03), "x", color="0.3", transform=axes.get_xaxis_transform()
     )
-    axes.set_ylabel(_quantity_label(study, name))
+    axes.set_ylabel(_label(study, name))
     axes.spines[["top", "right"]].set_visible(False)
 
 
 def _draw_map(axes: Axes, study: xr.Dataset, name: str) -> None:
     across, up = study["power"].dims
     x, y = _places(axes, "x", study[across]), _places(axes, "y", study[up])
-    values = study[name].transpose(up, across).values
-    norm, colours = _colours(name, values)
-    mesh = axes.pcolormesh(x, y, values, shading="nearest", norm=norm, cmap=colours)
-    axes.figure.colorbar(mesh, ax=axes, label=_quantity_label(study, name), pad=0.02)
+    values = as_shown(name, study[name].transpose(up, across).values)
     modulus = study["largest_modulus"].transpose(up, across).values
+    if name == "time_constant":
+        _draw_time_constants(axes, x, y, values, modulus)
+    else:
+        norm, colours = _colours(name, values)
+        mesh = axes.pcolormesh(x, y, values, shading="nearest", norm=norm, cmap=colours)
+        axes.figure.colorbar(mesh, ax=axes, label=_label(study, name), pad=0.02)
+    j, i = np.isfinite(values).nonzero()
+    axes.plot(x[i], y[j], **_COMPUTED)
     if np.nanmin(modulus, initial=np.inf) < 1 < np.nanmax(modulus, initial=-np.inf):
         axes.contour(x, y, modulus, levels=[1.0], colors="k", linewidths=1.6)
     failed = (study["status"].transpose(up, across).values == "failed").nonzero()
@@ -212,6 +215,26 @@ def _draw_map(axes: Axes, study: xr.Dataset, name: str) -> None:
     _draw_jumps(axes, jumps, (left, right), (lower, upper))
     axes.set_xlim(left[0], right[-1])
     axes.set_ylim(lower[0], upper[-1])
+
+
+def _draw_time_constants(
+    axes: Axes, x: np.ndarray, y: np.ndarray, values: np.ndarray, modulus: np.ndarray
+) -> None:
+    """Draw how fast disturbances grow in other colours than how fast they decay."""
+    finite = np.isfinite(values)
+    axes.set_title("time constant", fontsize="small")
+    for part, colours, label, foot in (
+        (finite & (modulus > 1), _GROWTH, "growth", 0.53),
+        (finite & (modulus <= 1), _DECAY, "decay", 0.0),
+    ):
+        if not part.any():
+            continue
+        shown = np.where(part, values, np.nan)
+        low, high = np.nanmin(shown), np.nanmax(shown)
+        norm = LogNorm(low, high) if high > _DECADE * low else Normalize(low, high)
+        mesh = axes.pcolormesh(x, y, shown, shading="nearest", norm=norm, cmap=colours)
+        beside = axes.inset_axes((1.03, foot, 0.06, 0.47))
+        axes.figure.colorbar(mesh, cax=beside).set_label(f"{label} (s)", fontsize="small")
 
 
 def _draw_jumps(
@@ -238,16 +261,24 @@ def _edges(centres: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.append(first, middles), np.append(middles, last)
 
 
+def _turn(name: str) -> tuple[float, str, str, str] | None:
+    """Where a quantity changes its meaning, with its colours there, above and below."""
+    if name == "largest_modulus":
+        return _MODULUS_TURNS
+    signed = name in BY_NAME and BY_NAME[name].form.startswith("+")
+    return _SIGN_TURNS if signed else None
+
+
 def _colours(name: str, values: np.ndarray) -> tuple[Normalize, str]:
     """Scale and colours; two of them meet where the quantity changes its meaning."""
+    turn = _turn(name)
+    if turn is None:
+        return Normalize(), "viridis"
     low, high = np.nanmin(values, initial=np.inf), np.nanmax(values, initial=-np.inf)
-    if name in _TURNS:
-        at, both, above, below = _TURNS[name]
-        if low < at < high:
-            return TwoSlopeNorm(at), both
-        return Normalize(), above if low >= at else below
-    wide = name == "time_constant" and high > _DECADE * low
-    return (LogNorm() if wide else Normalize()), "viridis"
+    at, both, above, below = turn
+    if low < at < high:
+        return TwoSlopeNorm(at), both
+    return Normalize(), above if low >= at else below
 
 
 def _legend(study: xr.Dataset) -> list[Any]:
@@ -255,8 +286,9 @@ def _legend(study: xr.Dataset) -> list[Any]:
     modulus, status = study["largest_modulus"].values, study["status"].values
     verdicts = study["stability"].values
     if len(study["power"].dims) == 2:
+        handles.append(Line2D([], [], label="computed flight", **_COMPUTED))
         if np.nanmin(modulus, initial=np.inf) < 1 < np.nanmax(modulus, initial=-np.inf):
-            boundary = "stability boundary, |Λ|max = 1"
+            boundary = f"stability boundary, {LARGEST_MODULUS} = 1"
             handles.append(Line2D([], [], color="k", lw=1.6, label=boundary))
         if (verdicts == "undecided").any():
             handles.append(Line2D([], [], label="undecided", **_UNDECIDED))
@@ -265,9 +297,9 @@ def _legend(study: xr.Dataset) -> list[Any]:
         if (study["warning"].values != "").any():
             handles.append(Line2D([], [], label="beyond the model's validity", **_BEYOND))
     else:
-        for kind, colour in _VERDICTS.items():
+        for kind, style in VERDICT_MARKERS.items():
             if (verdicts == kind).any():
-                handles.append(Line2D([], [], ls="", marker="o", color=colour, label=kind))
+                handles.append(Line2D([], [], label=kind, **style))
         if (status == "failed").any():
             failed = "no limit cycle found"
             handles.append(Line2D([], [], ls="", marker="x", color="0.3", label=failed))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-import matplotlib
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -13,7 +12,9 @@ from matplotlib.colors import Normalize, TwoSlopeNorm
 from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
-from birdmb.figures.sweep import parameter_label
+from birdmb.figures.labels import LARGEST_MODULUS, parameter_label, setting
+from birdmb.figures.page import is_narrow, label_x, label_y, new_figure, panels, title
+from birdmb.figures.style import LEVEL, VERMILION, families
 from birdmb.studies.stability_opening import StabilityOpening
 from birdmb.studies.tail import OPENING, VALID, gait_parameters, pareto_front, within_limits
 from birdmb.studies.tail_price import least_costs
@@ -35,13 +36,13 @@ def plot_manifold(data: xr.Dataset, limits: Mapping[str, float] = VALID) -> Figu
     for name in others:
         offered = np.sort(data[name].values)
         chosen = [{name: float(offered[i])} for i in _spread(offered.size, _PANELS)]
-    figure = Figure(figsize=(3 + 2.6 * len(chosen), 6.2), layout="constrained")
-    rows = figure.subplots(2, len(chosen), sharex=True, sharey=True, squeeze=False)
+    figure = new_figure(3 + 2.6 * len(chosen), 6.2, rows=2, columns=len(chosen))
+    rows = panels(figure, 2, len(chosen), sharex=True, sharey=True)
     allowed = within_limits(data, limits)
     modulus = data["largest_modulus"]
     quantities = (
         ("cost of transport", data["cost_of_transport"], "viridis", _norm(data, allowed)),
-        ("|Λ|max", modulus, "RdBu_r", TwoSlopeNorm(1.0, 0.9, 1.4)),
+        (LARGEST_MODULUS, modulus, "RdBu_r", TwoSlopeNorm(1.0, 0.9, 1.4)),
     )
     for row, (name, values, colours, norm) in zip(rows, quantities, strict=True):
         for axes, at in zip(row, chosen, strict=True):
@@ -55,26 +56,32 @@ def plot_manifold(data: xr.Dataset, limits: Mapping[str, float] = VALID) -> Figu
             )
             _exclude(axes, data, gait, ~allowed.sel(at) & np.isfinite(modulus.sel(at)))
             axes.set_facecolor("0.85")
-            if name is quantities[0][0]:
-                axes.set_title(_settings(at), fontsize="medium")
-        row[0].set_ylabel(parameter_label(gait))
+            _mark(axes, data, gait, modulus.sel(at))
+            if name is quantities[0][0] or is_narrow():
+                title(axes, _settings(at))
         figure.colorbar(mesh, ax=row.tolist(), label=name, extend="both")
-    for axes in rows[-1]:
-        axes.set_xlabel("tail opening (°)")
-    figure.suptitle(
-        f"{in_figure(data.attrs['bird'])}: level flights (grey: none; hatched: excluded)",
-        fontsize="medium",
+    label_x(rows, parameter_label(OPENING))
+    label_y(rows, parameter_label(gait))
+    title(
+        figure,
+        f"{in_figure(data.attrs['bird'])}: level flights (dots; grey: none; hatched: excluded; "
+        f"line: {LARGEST_MODULUS} = 1)",
     )
     return figure
 
 
 def _settings(at: Mapping[str, float]) -> str:
     """Values of parameters, for a title."""
-    texts = [
-        f"{in_figure(name.removesuffix('_deg'))} {value:.4g}{'°' if name.endswith('_deg') else ''}"
-        for name, value in at.items()
-    ]
-    return ", ".join(texts).replace("-", "−")
+    return ", ".join(setting(name, value) for name, value in at.items())
+
+
+def _mark(axes: Axes, data: xr.Dataset, gait: str, modulus: xr.DataArray) -> None:
+    """Mark the computed flights, and draw the boundary of stability."""
+    at = modulus.transpose(gait, OPENING).values
+    j, i = np.isfinite(at).nonzero()
+    axes.plot(data[OPENING].values[i], data[gait].values[j], ls="", marker=".", color="k", ms=1)
+    if np.nanmin(at, initial=np.inf) < 1 < np.nanmax(at, initial=-np.inf):
+        axes.contour(data[OPENING], data[gait], at, levels=[1.0], colors="k", linewidths=1.4)
 
 
 def _norm(data: xr.Dataset, allowed: xr.DataArray) -> Normalize:
@@ -102,24 +109,23 @@ def plot_envelope(
     limits: Mapping[str, float] = VALID,
 ) -> Figure:
     """Draw the least cost of transport at each speed, for four openings of the tail."""
-    figure = Figure(figsize=(6.5, 4.5), layout="constrained")
+    figure = new_figure(6.5, 4.5)
     axes = figure.subplots()
     everywhere = data[OPENING].values
     chosen = everywhere[_spread(everywhere.size, _PANELS)] if openings is None else openings
     kept = data.where(within_limits(data, limits))
-    colours = matplotlib.colormaps["viridis"](np.linspace(0.0, 0.85, len(chosen)))
-    for opening, colour in zip(chosen, colours, strict=True):
+    for opening, style in zip(chosen, families(len(chosen)), strict=True):
         at = kept.sel({OPENING: opening}, method="nearest")
         speed, cost = at["mean_speed"].values.ravel(), at["cost_of_transport"].values.ravel()
-        axes.plot(speed, cost, ".", color=colour, ms=3, alpha=0.35)
+        axes.plot(speed, cost, ".", color=style["color"], ms=3, alpha=0.35)
         if np.isfinite(speed).any():
             speeds = np.arange(np.nanmin(speed), np.nanmax(speed), _SPEED_STEP)
             least = least_costs(data.sel({OPENING: [at[OPENING]]}), speeds.tolist(), limits=limits)
-            axes.plot(speeds, least, color=colour, lw=1.8, label=f"{opening:g}°")
+            axes.plot(speeds, least, lw=1.8, label=f"{opening:g}°", **style)
     axes.set(xlabel="speed of level flight (m/s)", ylabel="cost of transport")
     axes.legend(title="tail opening", frameon=False)
     axes.spines[["top", "right"]].set_visible(False)
-    axes.set_title(f"{in_figure(data.attrs['bird'])}: least cost at each speed", fontsize="medium")
+    title(axes, f"{in_figure(data.attrs['bird'])}: least cost at each speed (dots: all flights)")
     return figure
 
 
@@ -128,8 +134,8 @@ def plot_pareto(data: xr.Dataset, limits: Mapping[str, float] = VALID) -> Figure
 
     All flights within the limits on the left, on the right the front alone.
     """
-    figure = Figure(figsize=(11, 4.5), layout="constrained")
-    whole, near = figure.subplots(1, 2)
+    figure = new_figure(11, 4.5, columns=2)
+    whole, near = panels(figure, 1, 2)[0]
     allowed = within_limits(data, limits)
     of_all = data["cost_of_transport"]
     cost = of_all.where(allowed).values.ravel()
@@ -139,18 +145,19 @@ def plot_pareto(data: xr.Dataset, limits: Mapping[str, float] = VALID) -> Figure
     for axes, size in ((whole, 6), (near, 14)):
         points = axes.scatter(cost, modulus, c=opening, s=size, cmap="viridis", linewidths=0)
         axes.plot(
-            cost[front], modulus[front], "-o", color="tab:red", ms=3, lw=1.2, label="Pareto front"
+            cost[front], modulus[front], "-o", color=VERMILION, ms=3, lw=1.2, label="Pareto front"
         )
-        axes.axhline(1.0, color="0.4", lw=0.8, ls="--")
-        axes.set(xlabel="cost of transport", ylabel="|Λ|max")
+        axes.axhline(1.0, **LEVEL)
+        axes.set(xlabel="cost of transport", ylabel=LARGEST_MODULUS)
+        axes.locator_params(axis="x", nbins=5)
         axes.spines[["top", "right"]].set_visible(False)
     if front.size > 1:
         near.set_xlim(*_around(cost[front]))
         near.set_ylim(*_around(modulus[front]))
-    figure.colorbar(points, ax=near, label="tail opening (°)")
+    figure.colorbar(points, ax=near, label=parameter_label(OPENING))
     whole.legend(frameon=False)
-    near.set_title("near the front", fontsize="medium")
-    figure.suptitle(f"{in_figure(data.attrs['bird'])}: what stability costs", fontsize="medium")
+    title(near, "near the front")
+    title(figure, f"{in_figure(data.attrs['bird'])}: what stability costs")
     return figure
 
 
@@ -162,21 +169,20 @@ def _around(values: FloatArray) -> tuple[float, float]:
 
 def plot_stability_openings(found: Sequence[StabilityOpening], name: str) -> Figure:
     """Draw the openings at which level flight becomes stable over a parameter of the gait."""
-    figure = Figure(figsize=(6.5, 4.5), layout="constrained")
+    figure = new_figure(6.5, 4.5)
     axes = figure.subplots()
-    colours = matplotlib.colormaps["plasma"](np.linspace(0.0, 0.85, max(len(found), 1)))
-    for each, colour in zip(found, colours, strict=True):
+    for each, style in zip(found, families(len(found)), strict=False):
         label = _settings({each.at: each.value}) if each.at else ""
         for curve in each.curves:
-            axes.plot(*curve.points.T, color=colour, lw=1.6, label=label)
+            axes.plot(*curve.points.T, lw=1.6, label=label, **style)
             label = ""
     if found:
         axes.set_xlabel(parameter_label(found[0].across))
-    axes.set_ylabel("tail opening at |Λ|max = 1 (°)")
+    axes.set_ylabel(f"tail opening at {LARGEST_MODULUS} = 1 (°)")
     if axes.get_legend_handles_labels()[0]:
         axes.legend(frameon=False)
     axes.spines[["top", "right"]].set_visible(False)
-    axes.set_title(f"{in_figure(name)}: stable above the lines", fontsize="medium")
+    title(axes, f"{in_figure(name)}: stable above the lines")
     return figure
 
 

@@ -6,7 +6,8 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from birdmb.figures.style import DRIVER, LINE, beat_axis, label_beat, title_of
+from birdmb.figures.page import label_x, new_figure, panels, title
+from birdmb.figures.style import DRIVER, LEVEL, LINE, beat_axis, beat_label, title_of
 from birdmb.models import FlightCycle
 from birdmb.studies.tunnel import tunnel_and_free_flight
 
@@ -25,12 +26,12 @@ _STYLES: dict[str, dict[str, Any]] = {
 def plot_tunnel_and_free_flight(cycle: FlightCycle) -> Figure:
     """Draw thrust, lift, pitching moment and power over a beat, held and free, with their means."""
     data = tunnel_and_free_flight(cycle)
-    figure = Figure(figsize=(10, 6), layout="constrained")
-    panels = figure.subplots(2, 2, sharex=True)
-    panels[0, 1].axhline(data.attrs["weight"], color="0.35", ls=":", lw=1.2)
-    for axes, (name, (label, unit)) in zip(panels.ravel(), _PANELS.items(), strict=True):
+    figure = new_figure(10, 6, rows=2, columns=2)
+    rows = panels(figure, 2, 2, sharex=True)
+    rows[0, 1].axhline(data.attrs["weight"], color="0.35", ls=":", lw=1.2)
+    for axes, (name, (label, unit)) in zip(rows.ravel(), _PANELS.items(), strict=True):
         beat_axis(axes, cycle)
-        axes.axhline(0, color="0.7", lw=0.8)
+        axes.axhline(0, **LEVEL)
         for mount, style in _STYLES.items():
             values = data[name].sel(mount=mount).values
             mean = round(float(values[:-1].mean()), 3) + 0.0  # no minus zero
@@ -40,11 +41,7 @@ def plot_tunnel_and_free_flight(cycle: FlightCycle) -> Figure:
         low, high = axes.get_ylim()
         axes.set_ylim(low, high + 0.25 * (high - low))  # room for the legend
         axes.legend(frameon=False, fontsize="small", loc="upper center", ncols=2)
-    for axes in panels[-1]:
-        label_beat(axes, cycle)
+    label_x(rows, beat_label(cycle))
     figure.align_ylabels()
-    figure.suptitle(
-        f"{title_of(cycle)}: body held at its mean state, and free (weight dotted)",
-        fontsize="medium",
-    )
+    title(figure, f"{title_of(cycle)}: body held at its mean state, and free (weight dotted)")
     return figure

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import CenteredNorm
 from matplotlib.figure import Figure
 
+from birdmb.figures.page import label_x, label_y, new_figure, panels, title
 from birdmb.text import in_figure
 
 _PANELS = {
@@ -24,8 +25,8 @@ def plot_validity(data: xr.Dataset) -> Figure:
 
     The limit is drawn as a black line; the tip that is not judged is hatched.
     """
-    figure = Figure(figsize=(10, 4.2), layout="constrained")
-    panels = figure.subplots(1, 2, sharex=True, sharey=True)
+    figure = new_figure(10, 4.2, columns=2)
+    row = panels(figure, 1, 2, sharex=True, sharey=True)
     judged = data["judged"].values
     largest = max(float(np.degrees(np.abs(data[name].values[judged]).max())) for name in _PANELS)
     largest = _STEP * np.ceil(largest / _STEP)
@@ -35,13 +36,15 @@ def plot_validity(data: xr.Dataset) -> Figure:
         "cmap": "RdBu_r",
         "extend": "both",
     }
-    for axes, (name, title) in zip(panels, _PANELS.items(), strict=True):
+    for axes, (name, about) in zip(row[0], _PANELS.items(), strict=True):
         _draw(axes, data, np.degrees(data[name].values), style)
-        axes.set_title(title, fontsize="medium")
-        axes.set_xlabel("phase of the beat")
-    panels[0].set_ylabel("span position (part of the half-span)")
-    figure.colorbar(panels[1].collections[0], ax=panels, label="angle of attack (°)", pad=0.01)
-    figure.suptitle(f"{in_figure(data.attrs['bird'])}: angle of attack", fontsize="medium")
+        title(axes, about)
+    label_x(row, "phase of the beat")
+    label_y(row, "span position (part of the half-span)")
+    figure.colorbar(
+        row[0, 1].collections[0], ax=row.ravel().tolist(), label="angle of attack (°)", pad=0.01
+    )
+    title(figure, f"{in_figure(data.attrs['bird'])}: angle of attack (limit drawn as a line)")
     return figure
 
 

@@ -15,6 +15,7 @@ from matplotlib.figure import Figure, SubFigure
 from matplotlib.lines import Line2D
 
 from birdmb._typing import FloatArray
+from birdmb.figures.page import columns_of, is_narrow, new_figure, title
 from birdmb.figures.style import holds_still, stroke_speed, title_of
 from birdmb.wing.outline import WingOutline, wing_outline
 
@@ -30,12 +31,16 @@ _TURNING = 0.35
 # Of the widest drawing: what is left between two of them, and the longest scale bar.
 _GAP = 0.12
 _LONGEST_BAR = 0.2
+_ROOM_FOR_TITLES = 0.2
 
 _Style = dict[str, Any]
 _BONE: _Style = {"color": "k", "lw": 1.8, "marker": "o", "ms": 2.6, "solid_capstyle": "round"}
 _LIFTING_LINE: _Style = {"color": "0.15", "lw": 0.9, "ls": (0, (4, 2))}
 _EDGE: _Style = {"color": "0.15", "lw": 0.9}
 _FEATHER: _Style = {"color": "0.45", "lw": 0.7}
+_VIEW_NAME: _Style = {"rotation": 90, "ha": "right", "va": "center", "color": "0.3"} | {
+    "fontsize": "small"
+}
 _CENTRE: _Style = {"color": "k", "ls": "", "marker": "+", "ms": 6, "mew": 1}
 
 
@@ -90,15 +95,22 @@ class Pose:
 
 def plot_wing_phases(cycle: FlightCycle) -> Figure:
     """Draw both wings at t = 0, T/4, T/2 and 3T/4 in three views of equal scale."""
-    figure = Figure(figsize=(13, 6.2), layout="constrained")
+    figure = new_figure(13, 6.2, columns=2)
     draw_wing_phases(figure, cycle, (OBLIQUE, BEHIND, TOP))
-    figure.legend(handles=_legend(), loc="outside lower center", ncols=5, frameon=False)
-    figure.suptitle(f"{title_of(cycle)}: the wings in body axes", fontsize="medium")
+    handles = _legend()
+    columns = columns_of([handle.get_label() for handle in handles], 5)
+    figure.legend(
+        handles=handles, loc="outside lower center", ncols=columns, frameon=False, fontsize="small"
+    )
+    title(figure, f"{title_of(cycle)}: the wings in body axes")
     return figure
 
 
 def draw_wing_phases(figure: Figure | SubFigure, cycle: FlightCycle, views: Sequence[View]) -> None:
-    """Draw the wings at four phases, a row for each view, all on one scale of length and colour."""
+    """Draw the wings at four phases, a row for each view, all on one scale of length and colour.
+
+    On narrow paper two phases stand beside one another.
+    """
     poses = _poses(cycle)
     norm = CenteredNorm(0.0, max(float(np.abs(p.circulations).max()) for p in poses))
     # One set of axes for all: nothing else keeps all drawings on one scale.
@@ -109,23 +121,36 @@ def draw_wing_phases(figure: Figure | SubFigure, cycle: FlightCycle, views: Sequ
     boxes = [_box(view, poses) for view in views]
     widest = max(right - left for (left, _), (right, _) in boxes)
     gap, width, top = _GAP * widest, (1.0 + _GAP) * widest, 0.0
-    for view, ((left, low), (right, high)) in zip(views, boxes, strict=True):
-        for column, pose in enumerate(poses):
-            middle = column * width - 0.5 * (left + right)
-            _draw(axes, pose, view, norm, np.array([middle, top - high]))
-        if len(views) > 1:
-            place = (-0.5 * width, top - 0.5 * (high - low))
-            axes.text(*place, view.name, rotation=90, ha="right", va="center", color="0.3")
-        top -= high - low + gap
-    for column, pose in enumerate(poses):
-        title = f"t = {_fraction(pose.phase)}, {pose.motion}"
-        axes.text(column * width, 0.3 * gap, title, ha="center", va="bottom")
-    _scale_bar(axes, -0.5 * width, top + 0.3 * gap, round_below(_LONGEST_BAR * widest))
-    colours = ScalarMappable(norm, _COLOURS)
-    bar = figure.colorbar(colours, ax=axes, label="circulation Γ (m²/s)", shrink=0.7, pad=0.01)
+    beside = 2 if is_narrow() else len(poses)
+    for row in (poses[i : i + beside] for i in range(0, len(poses), beside)):
+        for column, pose in enumerate(row):
+            about = f"t = {_fraction(pose.phase)}, {pose.motion}"
+            axes.text(column * width, top + 0.3 * gap, about, ha="center", va="bottom")
+        for view, ((left, low), (right, high)) in zip(views, boxes, strict=True):
+            for column, pose in enumerate(row):
+                middle = column * width - 0.5 * (left + right)
+                _draw(axes, pose, view, norm, np.array([middle, top - high]))
+            if len(views) > 1:
+                place = (-0.5 * width, top - 0.5 * (high - low))
+                axes.text(*place, view.name, **_VIEW_NAME)
+            top -= high - low + gap
+        top -= _ROOM_FOR_TITLES * widest
+    foot = top + _ROOM_FOR_TITLES * widest + 0.3 * gap
+    _scale_bar(axes, -0.4 * width, foot, round_below(_LONGEST_BAR * widest))
+    _colour_bar(figure, axes, norm, np.array([pose.circulations for pose in poses]))
+
+
+def _colour_bar(
+    figure: Figure | SubFigure, axes: Axes, norm: CenteredNorm, circulations: FloatArray
+) -> None:
     # Zero is white on any scale; what does not occur need not be shown.
-    lowest, highest = (float(f([f(p.circulations) for p in poses])) for f in (np.min, np.max))
-    bar.ax.set_ylim(min(lowest, 0.0), max(highest, 0.0))
+    shown = min(float(circulations.min()), 0.0), max(float(circulations.max()), 0.0)
+    below = is_narrow()
+    bar = figure.colorbar(
+        ScalarMappable(norm, _COLOURS), ax=axes, label="circulation Γ (m²/s)", shrink=0.7,
+        pad=0.01, location="bottom" if below else "right",
+    )  # fmt: skip
+    (bar.ax.set_xlim if below else bar.ax.set_ylim)(*shown)
 
 
 def _poses(cycle: FlightCycle) -> list[Pose]:

@@ -130,8 +130,8 @@ class Branch(Summarised):
     def plot(self, quantity: str | None = None) -> Figure:
         """Draw a quantity (a state's name, "period" or an observable) and the multipliers' moduli.
 
-        By default the first state at the start of the orbits. Stable parts are drawn in one colour,
-        unstable ones in another, undecided ones in grey; bifurcations are marked.
+        By default the first state at the start of the orbits. Stable parts are drawn through,
+        unstable ones dashed, undecided ones dotted; bifurcations are marked.
         """
         from birdmb.figures import plot_branch  # noqa: PLC0415 - it draws
 

@@ -8,8 +8,11 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from birdmb.errors import ArgumentError, BirdmbError
+from birdmb.figures.page import paper
+from birdmb.figures.saving import formats_of
 from birdmb.files import make_directory
 from birdmb.reproduction.figures import DRAWINGS
+from birdmb.reproduction.figures.drawing import kept_as
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -21,10 +24,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 0
     try:
         names = list(_names(options.figure, options.table))
+        formats = formats_of(options.format)
         make_directory(options.out)
         for number, name in enumerate(names, 1):
             print(f"{number}/{len(names)} {name}: {DRAWINGS[name].title}", file=sys.stderr)
-            DRAWINGS[name].draw(options.out, options.coarse)
+            with paper(options.width), kept_as(formats):
+                DRAWINGS[name].draw(options.out, options.coarse)
     except BirdmbError as error:
         print(f"Error: {' '.join(str(error).split())}", file=sys.stderr)
         return 2 if isinstance(error, ValueError) else 1
@@ -44,6 +49,8 @@ def _options() -> argparse.ArgumentParser:
     parser.add_argument(
         "--out", type=Path, default=Path("results"), metavar="DIR", help="default: results"
     )
+    parser.add_argument("--format", default="png", metavar="LIST", help="as pdf,svg,png")
+    parser.add_argument("--width", metavar="WIDTH", help="of a paper's column, as 90mm")
     return parser
 
 

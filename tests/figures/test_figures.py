@@ -105,7 +105,8 @@ def test_means_stand_in_the_loads(cycle):
     texts = [t.get_text() for axes in figure.axes for t in axes.get_legend().get_texts()]
     assert f"mean {cycle.power:.3g} W".replace("-", "−") in texts
     for name, power in cycle.joint_powers.items():
-        assert f"{name}  {power:+.2f} W".replace("-", "−") in texts
+        shown = name.replace(".", " ")
+        assert f"{shown}  {power:+.2f} W".replace("-", "−") in texts
 
 
 def test_wings_are_drawn_to_one_scale_with_their_circulation(cycle):

@@ -2,15 +2,31 @@
 
 import pytest
 
+from birdmb.figures.saving import save_figure
 from birdmb.reproduction.__main__ import main
-from birdmb.reproduction.figures import DRAWINGS
+from birdmb.reproduction.figures import DRAWINGS, drawing
+
+from ..figures.seeing import confusable, unlabelled
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("name", DRAWINGS)
-def test_drawing(name, tmp_path):
+def test_drawing(name, tmp_path, monkeypatch):
+    """In a column: lines that all can tell apart, units on all axes."""
+    kept = []
+
+    def save(figure, path):
+        kept.append(figure)
+        return save_figure(figure, path)
+
+    monkeypatch.setattr(drawing, "save_figure", save)
     kind, number = name.split()
-    assert main([f"--{kind}", number, "--out", str(tmp_path / "new"), "--coarse"]) == 0
+    directory = tmp_path / "new"
+    column = ["--width", "90mm", "--coarse", "--out", str(directory)]
+    assert main([f"--{kind}", number, *column]) == 0
+    for figure in kept:
+        assert unlabelled(figure) == []
+        assert confusable(figure) == []
     stem = name.replace(" ", "_").replace(".", "_")
     made = [path for path in (tmp_path / "new").iterdir() if path.stem.startswith(stem)]
     assert made

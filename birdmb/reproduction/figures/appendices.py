@@ -8,9 +8,10 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
+from birdmb.figures.page import label_x, label_y, new_figure, panels, title
+from birdmb.figures.style import BLUE, SERIES, VERMILION
 from birdmb.models import RigidModel
 from birdmb.orbits import largest_lyapunov_exponent
 from birdmb.reproduction.appendices import ROESSLER, redox_cycle, roessler, roessler_cycle
@@ -28,17 +29,21 @@ def roessler_portrait(number: int, out: Path, _coarse: bool) -> None:
     times = np.linspace(0.0, 4 * cycle.period, 2001)
     start = roessler(case.a, case.b, case.c).trajectory(beside, 0.0, times[-1], times)
     orbit = cycle.trajectory(times[:501]).states
-    figure = Figure(figsize=(6.5, 5.6), layout="constrained")
+    figure = new_figure(6.5, 5.6)
     axes = figure.add_subplot(projection="3d")
-    axes.plot(*start.states.T, color="tab:red", lw=0.6, label="from beside it, four periods")
-    axes.plot(*orbit.T, color="tab:blue", lw=2, label="limit cycle")
+    axes.plot(
+        *start.states.T,
+        color=VERMILION,
+        lw=0.6,
+        ls=(0, (4, 1.5)),
+        label="from beside it, four periods",
+    )
+    axes.plot(*orbit.T, color=BLUE, lw=2, label="limit cycle")
     axes.set(xlabel="x", ylabel="y", zlabel="z")
+    axes.locator_params(nbins=4)
     axes.legend(frameon=False, fontsize="small", loc="upper left")
     others = np.delete(cycle.multipliers, cycle.trivial_index or 0)
-    axes.set_title(
-        f"{case.name}: T = {cycle.period:.6f} s, |Λ| = {np.abs(others).max():.6f}",
-        fontsize="medium",
-    )
+    title(axes, f"{case.name}: T = {cycle.period:.6f} s, |Λ| = {np.abs(others).max():.6f}")
     keep_figure(out, f"figure A.{number}", figure)
 
 
@@ -84,45 +89,47 @@ _STEPPERS: Mapping[str, tuple[Step, int]] = {
 
 def integrators(out: Path, coarse: bool) -> None:
     """Draw the error of a beat of the ibis over the evaluations of its right-hand side."""
-    figure = Figure(figsize=(9.5, 4.4), layout="constrained")
-    panels = figure.subplots(1, 2, sharex=True, sharey=True)
+    figure = new_figure(9.5, 4.4, columns=2)
+    row = panels(figure, 1, 2, sharex=True, sharey=True)
     numbers = (15, 30) if coarse else (15, 30, 60, 120, 240)
     wings = {"published wing": published_wing("ibis"), "converged wing": bird("ibis")}
-    for axes, (title, ibis) in zip(panels, wings.items(), strict=True):
+    for axes, (about, ibis) in zip(row[0], wings.items(), strict=True):
         _draw_errors(axes, RigidModel(ibis, steps_per_beat=960), numbers)
-        axes.set(title=title, xlabel="evaluations of the right-hand side in a beat")
-    panels[0].set_ylabel("error of the state after a beat (state scale)")
-    panels[0].legend(frameon=False)
+        title(axes, about)
+    label_x(row, "evaluations of the right-hand side in a beat")
+    label_y(row, "error of the state after a beat (state scale)")
+    row[0, 0].legend(frameon=False, fontsize="small")
     keep_figure(out, "figure C.1", figure)
 
 
 def _draw_errors(axes: Axes, exact: RigidModel, numbers: Sequence[int]) -> None:
     x0, period = exact.initial_guess(), exact.bird.period
+    axes.set_prop_cycle(SERIES)
     end = exact.flow(x0, 0.0, period)
-    for name, (step, stages) in _STEPPERS.items():
+    for (name, (step, stages)), marker in zip(_STEPPERS.items(), "o^sD", strict=True):
         errors = []
         for steps in numbers:
             x, h = x0, period / steps
             for k in range(steps):
                 x = x + step(exact, k * h, x, h)
             errors.append(np.abs((x - end) / exact.state_scale).max())
-        axes.loglog(np.multiply(numbers, stages), errors, "o-", label=name)
+        axes.loglog(np.multiply(numbers, stages), errors, marker=marker, label=name)
 
 
 def lyapunov(out: Path, coarse: bool) -> None:
     """Draw the largest exponent of a chaotic and of a periodic Roessler system as it settles."""
-    figure = Figure(figsize=(7, 4.4), layout="constrained")
+    figure = new_figure(7, 4.4)
     axes = figure.subplots()
     intervals = 30 if coarse else 400
-    for c, colour in ((5.7, "tab:red"), (2.5, "tab:blue")):
+    for c, style in zip((5.7, 2.5), SERIES, strict=False):
         found = largest_lyapunov_exponent(
             roessler(0.2, 0.2, c), [1.0, 1.0, 0.0], 6.0, intervals, method="neighbours"
         )
         label = f"a = b = 0.2, c = {c:g}: {found.exponent:.4f} ± {found.error:.4f} 1/s"
-        axes.plot(found.times, found.running, color=colour, label=label.replace("-", "−"))
-    axes.axhline(0.0714, color="0.5", ls="--", lw=1, label="0.0714 (Sprott 2003)")
+        axes.plot(found.times, found.running, label=label.replace("-", "−"), **style)
+    axes.axhline(0.0714, color="0.4", ls=":", lw=1, label="0.0714 (Sprott 2003)")
     axes.set(xlabel="time (s)", ylabel="largest Lyapunov exponent (1/s)", ylim=(-0.1, 0.15))
-    axes.legend(frameon=False)
+    axes.legend(frameon=False, fontsize="small")
     keep_figure(out, "figure E.1", figure)
 
 

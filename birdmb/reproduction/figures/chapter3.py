@@ -6,16 +6,17 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
+from birdmb.figures.page import label_x, new_figure, panels, title
+from birdmb.figures.style import DRIVER, LEVEL, LINE, SERIES
 from birdmb.models import RigidModel
 from birdmb.reproduction.figures.drawing import Drawing, keep_figure
 from birdmb.reproduction.quantities import published_wing
 from birdmb.wing.outline import wing_outline
 
 _START = np.array([14.0, 0.0, 0.0, 0.0])
-_STYLES = {"held": {"color": "0.35", "ls": "--"}, "free": {"color": "tab:blue"}}
+_STYLES = {"held": {"color": DRIVER, "ls": "--"}, "free": {"color": LINE}}
 
 
 def tip_path(out: Path, coarse: bool) -> None:
@@ -30,19 +31,19 @@ def tip_path(out: Path, coarse: bool) -> None:
         "wing tip": np.array([each.leading[-1] for each in outlines]),
         "wrist": np.array([each.bones[-2] for each in outlines]),
     }
-    figure = Figure(figsize=(9, 4.6), layout="constrained")
-    side, behind = figure.subplots(1, 2, width_ratios=(1, 1.8))
+    figure = new_figure(9, 4.6, columns=2)
+    side, behind = panels(figure, 1, 2, width_ratios=(1, 1.8))[0]
     down = np.sin(2 * np.pi * times / model.bird.period + np.pi / 2) > 0
-    for (name, path), colour in zip(paths.items(), ("tab:blue", "tab:orange"), strict=True):
+    for (name, path), style in zip(paths.items(), SERIES, strict=False):
         for axes, across in ((side, 0), (behind, 1)):
-            axes.plot(path[:, across], -path[:, 2], color=colour, lw=1)
-            axes.plot(path[down, across], -path[down, 2], ".", color=colour, label=name)
+            axes.plot(path[:, across], -path[:, 2], lw=1, label=name, **style)
+            axes.plot(path[down, across], -path[down, 2], ".", color=style["color"])
     side.set(xlabel="x, forward (m)", ylabel="height over G (m)", title="from the right")
-    behind.set(xlabel="y, to the right (m)", title="from behind")
+    behind.set(xlabel="y, to the right (m)", ylabel="height over G (m)", title="from behind")
     for axes in (side, behind):
         axes.set_aspect("equal")
         axes.plot(0, 0, "k+")
-    behind.legend(frameon=False, title="dots: downstroke", loc="center left")
+    behind.legend(frameon=False, fontsize="small", title="dots: downstroke", loc="center left")
     keep_figure(out, "figure 3.9", figure)
 
 
@@ -72,34 +73,35 @@ def loads_held_and_free(out: Path, coarse: bool) -> None:
     """Draw thrust, lift and pitching moment of the bird held at 14 m/s and of the free one."""
     beats, _, loads = _flights(coarse)
     weight = 1.2 * 9.81
-    figure = Figure(figsize=(8, 7), layout="constrained")
-    rows = figure.subplots(3, 1, sharex=True)
+    figure = new_figure(8, 7, rows=3)
+    rows = panels(figure, 3, 1, sharex=True)[:, 0]
     for i, (axes, label) in enumerate(
-        zip(rows, ("thrust / weight", "lift / weight", "pitching moment (N m)"), strict=True)
+        zip(rows, ("thrust / weight", "lift / weight", "moment (N m)"), strict=True)
     ):
         for mount, style in _STYLES.items():
             axes.plot(beats, loads[mount][:, i] / (weight if i < 2 else 1.0), **style, label=mount)
-        axes.axhline(1.0 if i == 1 else 0.0, color="0.8", lw=0.8)
+        axes.axhline(1.0 if i == 1 else 0.0, **LEVEL)
         axes.set_ylabel(label)
-    rows[0].legend(frameon=False, ncols=2)
+    rows[0].legend(frameon=False, fontsize="small", ncols=2)
     rows[-1].set(xlabel="time (beats)", xlim=(0, beats[-1]))
-    figure.suptitle("loads from u = 14 m/s, w = q = θ = 0 on, in world axes", fontsize="medium")
+    title(figure, "loads from u = 14 m/s, w = q = θ = 0 on, in world axes")
     keep_figure(out, "figure 3.11", figure)
 
 
 def states_held_and_free(out: Path, coarse: bool) -> None:
     """Draw the states of the bird held at 14 m/s and of the free one, which is not periodic."""
     beats, states, _ = _flights(coarse)
-    figure = Figure(figsize=(9, 5.4), layout="constrained")
-    panels = figure.subplots(2, 2, sharex=True)
-    labels = ("u (m/s)", "w (m/s)", "q (rad/s)", "θ (rad)")
-    for i, (axes, label) in enumerate(zip(panels.ravel(), labels, strict=True)):
+    figure = new_figure(9, 5.4, rows=2, columns=2)
+    rows = panels(figure, 2, 2, sharex=True)
+    labels = ("u (m/s)", "w (m/s)", "q (°/s)", "θ (°)")
+    for i, (axes, label) in enumerate(zip(rows.ravel(), labels, strict=True)):
+        scale = np.degrees(1.0) if i > 1 else 1.0
         for mount, style in _STYLES.items():
-            axes.plot(beats, states[mount][:, i], **style, label=mount)
+            axes.plot(beats, scale * states[mount][:, i], **style, label=mount)
         axes.set_ylabel(label)
-    panels[0, 0].legend(frameon=False)
-    for axes in panels[-1]:
-        axes.set(xlabel="time (beats)", xlim=(0, beats[-1]))
+    rows[0, 0].legend(frameon=False, fontsize="small")
+    rows[0, 0].set_xlim(0, beats[-1])
+    label_x(rows, "time (beats)")
     figure.align_ylabels()
     keep_figure(out, "figure 3.12", figure)
 

@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
+from birdmb.figures.page import new_figure, panels, title
+from birdmb.figures.style import BLUE, GREEN, ORANGE, SERIES, VERMILION
 from birdmb.orbits import LimitCycle
 from birdmb.reproduction.appendices import ROESSLER, roessler_cycle
 from birdmb.reproduction.chapter4 import AMPLITUDE, PERIOD, poincare_oscillator
@@ -20,18 +21,18 @@ _RADIUS = 0.3
 def poincare(out: Path, _coarse: bool) -> None:
     """Draw trajectories of the Poincaré oscillator that come to its cycle from both sides."""
     model = poincare_oscillator()
-    figure = Figure(figsize=(9.5, 4.4), layout="constrained")
-    plane, over_time = figure.subplots(1, 2)
+    figure = new_figure(9.5, 4.4, columns=2)
+    plane, over_time = panels(figure, 1, 2)[0]
     phase = np.linspace(0.0, 2 * np.pi, 181)
     plane.plot(AMPLITUDE * np.cos(phase), AMPLITUDE * np.sin(phase), "k", lw=2, label="limit cycle")
     over_time.axhline(AMPLITUDE, color="k", lw=2)
-    for start, colour in ((0.05, "tab:blue"), (0.4, "tab:cyan"), (1.8, "tab:red")):
+    for start, style in zip((0.05, 0.4, 1.8), SERIES, strict=False):
         path = model.trajectory(np.array([start, 0.0]), 0.0, 2 * PERIOD)
-        plane.plot(*path.states.T, color=colour, lw=1, label=f"from r = {start:g}")
-        plane.plot(start, 0.0, "o", color=colour, ms=4)
-        over_time.plot(path.times / PERIOD, np.hypot(*path.states.T), color=colour, lw=1)
+        plane.plot(*path.states.T, lw=1, label=f"from r = {start:g}", **style)
+        plane.plot(start, 0.0, "o", color=style["color"], ms=4)
+        over_time.plot(path.times / PERIOD, np.hypot(*path.states.T), lw=1, **style)
     plane.set(xlabel="x", ylabel="y", aspect="equal")
-    figure.legend(frameon=False, fontsize="small", loc="outside lower center", ncols=4)
+    figure.legend(frameon=False, fontsize="small", loc="outside lower center", ncols=2)
     over_time.set(xlabel="time (periods)", ylabel="r", ylim=(0, None))
     keep_figure(out, "figure 4.4", figure)
 
@@ -54,18 +55,18 @@ def sphere_along_the_flow(out: Path, coarse: bool) -> None:
     """Draw a sphere of disturbances, to first order, at some phases of Roessler's cycle."""
     cycle = roessler_cycle(ROESSLER[2])
     path = cycle.trajectory().states
-    figure = Figure(figsize=(7.5, 6.4), layout="constrained")
+    figure = new_figure(7.5, 6.4)
     axes = figure.add_subplot(projection="3d")
     axes.plot(*path.T, color="0.5", lw=1)
     ball = _sphere(9 if coarse else 25)
-    colours = ("tab:blue", "tab:green", "tab:orange", "tab:red")
+    colours = (BLUE, GREEN, ORANGE, VERMILION)
     for part, colour in zip((0.0, 0.3, 0.6, 0.9), colours, strict=True):
         centre, tangent = _carried(cycle, part)
         surface = centre[:, None, None] + _RADIUS * np.einsum("ij,jpq->ipq", tangent, ball)
         axes.plot_surface(*surface, color=colour, alpha=0.5, linewidth=0)
         axes.text(*(centre + 0.6), f"{part:g} T", color=colour)
     axes.set(xlabel="x", ylabel="y", zlabel="z")
-    axes.set_title("a sphere of disturbances carried along the flow", fontsize="medium")
+    title(axes, "a sphere of disturbances carried along the flow")
     keep_figure(out, "figure 4.7", figure)
 
 
@@ -75,18 +76,21 @@ def sphere_after_a_period(out: Path, coarse: bool) -> None:
     _, tangent = _carried(cycle, 1.0)
     ball = _sphere(9 if coarse else 31)
     ellipsoid = np.einsum("ij,jpq->ipq", tangent, ball)
-    figure = Figure(figsize=(7.5, 6.4), layout="constrained")
+    figure = new_figure(7.5, 6.4)
     axes = figure.add_subplot(projection="3d")
-    axes.plot_wireframe(*ball, color="tab:blue", lw=0.4, alpha=0.6)
-    axes.plot_surface(*ellipsoid, color="tab:red", alpha=0.35, linewidth=0)
+    axes.plot_wireframe(*ball, color=BLUE, lw=0.4, alpha=0.6)
+    axes.plot_surface(*ellipsoid, color=VERMILION, alpha=0.35, linewidth=0)
     left, sizes, _ = np.linalg.svd(tangent)
-    for size, axis in zip(sizes, left.T, strict=True):
+    for size, axis, dashes in zip(sizes, left.T, ("-", "-.", ":"), strict=True):
         ends = np.array([-axis, axis]) * size
-        axes.plot(*ends.T, color="tab:red", label=f"semi-axis {size:.2g}")
-    for value, mode in zip(cycle.multipliers, cycle.modes.T, strict=True):
+        axes.plot(*ends.T, color=VERMILION, ls=dashes, label=f"semi-axis {size:.2g}")
+    for value, mode, look in zip(
+        cycle.multipliers, cycle.modes.T, ("--", (0, (6, 3, 1, 3)), ":"), strict=True
+    ):
         if abs(value) > 1e-3:
             vector = mode.real / np.linalg.norm(mode.real)
-            axes.plot(*np.array([-vector, vector]).T, "k--", lw=1, label=f"Λ = {value.real:.3f}")
+            ends = np.array([-vector, vector])
+            axes.plot(*ends.T, color="k", ls=look, lw=1, label=f"Λ = {value.real:.3f}")
     axes.set(xlabel="δx", ylabel="δy", zlabel="δz")
     axes.set_aspect("equal")
     axes.set_zticks([])
@@ -95,7 +99,7 @@ def sphere_after_a_period(out: Path, coarse: bool) -> None:
     azimuth = np.degrees(np.arctan2(towards[1], towards[0]))
     axes.view_init(np.degrees(np.arctan2(towards[2], np.hypot(*towards[:2]))), azimuth)
     axes.legend(frameon=False, fontsize="small", loc="upper left")
-    axes.set_title("unit sphere (blue) and what a period makes of it (red)", fontsize="medium")
+    title(axes, "unit sphere (wires) and what a period makes of it (surface)")
     keep_figure(out, "figure 4.8", figure)
 
 

@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
+from birdmb.figures.page import new_figure, panels, title
+from birdmb.figures.style import BLUE, LEVEL, SERIES, VERMILION
 from birdmb.models import FlightCycle, RigidModel
 from birdmb.orbits import find_limit_cycle
 from birdmb.reproduction.figures.drawing import Drawing, keep_figure
@@ -23,15 +24,17 @@ from birdmb.reproduction.quantities import (
 from birdmb.studies.perturbed import perturbed_flight
 from birdmb.studies.tunnel import tunnel_and_free_flight
 
-_LABELS = {"u": "u (m/s)", "w": "w (m/s)", "q": "q (rad/s)", "theta": "θ (rad)"}
+_LABELS = {"u": "u (m/s)", "w": "w (m/s)", "q": "q (°/s)", "theta": "θ (°)"}
+_SCALES = np.array([1.0, 1.0, np.degrees(1.0), np.degrees(1.0)])
 _SHOOTING_POINTS = 10
 
 
 def convergence(out: Path, coarse: bool) -> None:
     """Draw the closure error over the iterations of shooting with some numbers of segments."""
-    figure = Figure(figsize=(6.5, 4.4), layout="constrained")
+    figure = new_figure(6.5, 4.4)
     axes = figure.subplots()
-    for segments in (1, 4) if coarse else (1, 2, 5, 10):
+    axes.set_prop_cycle(SERIES)
+    for segments, marker in zip((1, 4) if coarse else (1, 2, 5, 10), "o^sD", strict=False):
         cycle = find_limit_cycle(
             RigidModel(published_wing("ibis")),
             [14.0, 0.0, 0.0, 0.0],
@@ -42,29 +45,29 @@ def convergence(out: Path, coarse: bool) -> None:
         )
         errors = [step.residual for step in cycle.iterations]
         label = "1 segment" if segments == 1 else f"{segments} segments"
-        axes.semilogy(range(len(errors)), errors, "o-", ms=4, label=label)
+        axes.semilogy(range(len(errors)), errors, marker=marker, ms=4, label=label)
     axes.set(xlabel="iteration", ylabel="closure error (state scale)")
-    axes.legend(frameon=False)
-    axes.set_title("from u = 14 m/s, w = q = θ = 0", fontsize="medium")
+    axes.legend(frameon=False, fontsize="small")
+    title(axes, "from u = 14 m/s, w = q = θ = 0")
     keep_figure(out, "figure 5.3", figure)
 
 
 def _portrait(axes: Axes, cycle: FlightCycle, pair: tuple[str, str]) -> None:
     """Draw the cycle in the plane of two states, its shooting points and its direction."""
     at = [STATES.index(name) for name in pair]
-    path = cycle.trajectory().states[:, at]
+    path = (_SCALES * cycle.trajectory().states)[:, at]
     times = cycle.start_time + cycle.period * np.arange(_SHOOTING_POINTS) / _SHOOTING_POINTS
-    points = cycle.trajectory(times).states[:, at]
-    axes.plot(*path.T, color="tab:blue")
-    axes.plot(*points.T, "o", color="tab:red", ms=4, label="shooting points")
+    points = (_SCALES * cycle.trajectory(times).states)[:, at]
+    axes.plot(*path.T, color=BLUE)
+    axes.plot(*points.T, "o", color=VERMILION, ms=4, label="shooting points")
     axes.plot(*points[0], "s", color="k", ms=5, label="t = 0, mid-downstroke")
-    axes.annotate("", path[3], path[0], arrowprops={"arrowstyle": "->", "color": "tab:blue"})
+    axes.annotate("", path[3], path[0], arrowprops={"arrowstyle": "->", "color": BLUE})
     axes.set(xlabel=_LABELS[pair[0]], ylabel=_LABELS[pair[1]])
 
 
 def portrait(pair: tuple[str, str], name: str, out: Path, _coarse: bool) -> None:
     """Draw the limit cycle in the plane of two states."""
-    figure = Figure(figsize=(5.4, 4.4), layout="constrained")
+    figure = new_figure(5.4, 4.4)
     axes = figure.subplots()
     _portrait(axes, reference_cycle(), pair)
     axes.legend(frameon=False, fontsize="small")
@@ -74,13 +77,14 @@ def portrait(pair: tuple[str, str], name: str, out: Path, _coarse: bool) -> None
 def portrait_in_space(out: Path, _coarse: bool) -> None:
     """Draw the limit cycle in the space of u, w and θ."""
     cycle = reference_cycle()
-    figure = Figure(figsize=(6.2, 5.4), layout="constrained")
+    figure = new_figure(6.2, 5.4)
     axes = figure.add_subplot(projection="3d")
-    path = cycle.trajectory().states
-    axes.plot(path[:, 0], path[:, 1], path[:, 3], color="tab:blue")
-    axes.plot(*cycle.x0[[0, 1, 3]], "ks", ms=5, label="t = 0, mid-downstroke")
+    path = _SCALES * cycle.trajectory().states
+    axes.plot(path[:, 0], path[:, 1], path[:, 3], color=BLUE)
+    axes.plot(*(_SCALES * cycle.x0)[[0, 1, 3]], "ks", ms=5, label="t = 0, mid-downstroke")
     axes.set(xlabel=_LABELS["u"], ylabel=_LABELS["w"], zlabel=_LABELS["theta"])
     axes.locator_params(nbins=4)
+    axes.set_box_aspect(None, zoom=0.85)  # labels lie outside of what the layout counts
     axes.legend(frameon=False, fontsize="small")
     keep_figure(out, "figure 5.6", figure)
 
@@ -89,28 +93,32 @@ def loads_over_weight(out: Path, _coarse: bool) -> None:
     """Draw the force of the air along the limit cycle in world axes, over the weight."""
     data = tunnel_and_free_flight(reference_cycle()).sel(mount="free")
     beats = data["time"] / data["time"].values[-1]
-    figure = Figure(figsize=(6.5, 4.4), layout="constrained")
+    figure = new_figure(6.5, 4.4)
     axes = figure.subplots()
-    for name, colour, label in (
-        ("lift", "tab:blue", "vertical, upwards"),
-        ("thrust", "tab:orange", "horizontal, forwards"),
+    for (name, label), style in zip(
+        (("lift", "vertical, upwards"), ("thrust", "horizontal, forwards")), SERIES, strict=False
     ):
         values = data[name] / data.attrs["weight"]
         mean = round(float(values[:-1].mean()), 3) + 0.0
-        axes.plot(beats, values, color=colour, label=f"{label}, mean {mean:.3f}")
-    axes.axhline(1.0, color="0.6", ls=":", lw=1)
-    axes.axhline(0.0, color="0.8", lw=0.8)
+        axes.plot(beats, values, label=f"{label}, mean {mean:.3f}", **style)
+    axes.axhline(1.0, **LEVEL)
+    axes.axhline(0.0, **LEVEL)
     axes.set(xlabel="time (beats)", ylabel="force / weight", xlim=(0, 1))
-    axes.legend(frameon=False)
+    axes.legend(frameon=False, fontsize="small")
     keep_figure(out, "figure 5.7", figure)
 
 
+def _scaled(states: xr.DataArray, name: str) -> xr.DataArray:
+    """A state in the unit of its label."""
+    return float(_SCALES[STATES.index(name)]) * states.sel(state=name)
+
+
 def _after_a_disturbance(axes: Axes, flight: xr.Dataset, pair: tuple[str, str]) -> None:
-    first, second = (flight["states"].sel(state=name) for name in pair)
-    axes.plot(first, second, color="tab:red", lw=1, label="disturbed")
-    axes.plot(first[0], second[0], "o", color="tab:red", ms=4)
-    cycle = [flight["orbit"].sel(state=name) for name in pair]
-    axes.plot(*cycle, color="tab:blue", lw=2, label="limit cycle")
+    first, second = (_scaled(flight["states"], name) for name in pair)
+    axes.plot(first, second, color=VERMILION, lw=1, ls=(0, (4, 1.5)), label="disturbed")
+    axes.plot(first[0], second[0], "o", color=VERMILION, ms=4)
+    cycle = [_scaled(flight["orbit"], name) for name in pair]
+    axes.plot(*cycle, color=BLUE, lw=2, label="limit cycle")
     axes.set(xlabel=_LABELS[pair[0]], ylabel=_LABELS[pair[1]])
 
 
@@ -121,14 +129,14 @@ def disturbed(stable: bool, name: str, out: Path, coarse: bool) -> None:
     flights = perturbed_flight(cycle, amplitude=0.05, periods=periods, samples=60)
     moduli = multiplier_moduli(flights)
     flight = flights.isel(mode=int((moduli < 1).argmax() if stable else moduli.argmax()))
-    figure = Figure(figsize=(9.5, 4.4), layout="constrained")
-    left, right = figure.subplots(1, 2)
+    figure = new_figure(9.5, 4.4, columns=2)
+    left, right = panels(figure, 1, 2)[0]
     _after_a_disturbance(left, flight, ("u", "w"))
     _after_a_disturbance(right, flight, ("theta", "q"))
     left.legend(frameon=False, fontsize="small")
     real, imag = float(flight["multiplier_real"]), float(flight["multiplier_imag"])
     value = f"{real:.3f}" + (f" ± {imag:.3f} i" if imag else "")
-    figure.suptitle(f"{periods} beats after a disturbance along Λ = {value}", fontsize="medium")
+    title(figure, f"{periods} beats after a disturbance along Λ = {value}")
     keep_figure(out, name, figure)
 
 

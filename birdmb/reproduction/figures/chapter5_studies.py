@@ -9,9 +9,11 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
+from birdmb.figures.labels import IMAGINARY, LARGEST_MODULUS, MODULUS, REAL, parameter_label
+from birdmb.figures.page import is_narrow, label_x, label_y, new_figure, panels, parts, title
+from birdmb.figures.style import LEVEL, LINE, SERIES, families
 from birdmb.models import RigidModel
 from birdmb.reproduction.chapter5 import margin_study
 from birdmb.reproduction.figures.drawing import Drawing, keep_figure
@@ -40,15 +42,15 @@ def amplitude(out: Path, coarse: bool) -> None:
     curves = {
         "$U_{ff}$ (m/s)": study["mean_speed"] * np.cos(study["path_angle"]),
         "climb rate (m/s)": study["mean_climb_rate"],
-        "largest |Λ|": multiplier_moduli(study).max(axis=1),
+        LARGEST_MODULUS: multiplier_moduli(study).max(axis=1),
     }
-    figure = Figure(figsize=(6.5, 6.6), layout="constrained")
-    rows = figure.subplots(3, 1, sharex=True)
+    figure = new_figure(6.5, 6.6, rows=3)
+    rows = panels(figure, 3, 1, sharex=True)[:, 0]
     for axes, (label, values) in zip(rows, curves.items(), strict=True):
-        axes.plot(over, values, "o-", ms=4)
+        axes.plot(over, values, "o-", color=LINE, ms=4)
         axes.set_ylabel(label)
-    rows[1].axhline(0.0, color="0.7", lw=0.8)
-    rows[-1].set(xlabel="amplitude of the flap (°)", ylim=(1.0, 1.5))
+    rows[1].axhline(0.0, **LEVEL)
+    rows[-1].set(xlabel=parameter_label(FLAP_AMPLITUDE), ylim=(1.0, 1.5))
     figure.align_ylabels()
     keep_figure(out, "figure 5.10", figure)
 
@@ -58,55 +60,62 @@ def amplitude_locus(out: Path, coarse: bool) -> None:
     study = _over_amplitude(coarse)
     over = study[FLAP_AMPLITUDE].values
     values = study["multiplier_real"].values + 1j * study["multiplier_imag"].values
-    figure = Figure(figsize=(11, 4.4), layout="constrained")
-    whole, near = figure.subfigures(1, 2, squeeze=False, width_ratios=(1, 1.5))[0]
+    figure = new_figure(11, 4.4, columns=3)
+    whole, near = parts(figure, (1, 1.5), (1, 2))
     plane = whole.subplots()
     phase = np.linspace(0.0, 2 * np.pi, 181)
     plane.plot(np.cos(phase), np.sin(phase), color="0.6", lw=1)
     colours = np.broadcast_to(over[:, None], values.shape)
     plane.scatter(values.real, values.imag, c=colours, s=16)
-    plane.set(xlabel="Re Λ", ylabel="Im Λ", aspect="equal", xlim=(-1.1, 1.6))
-    panels = near.subplots(1, 3)
+    plane.set(xlabel=REAL, ylabel=IMAGINARY, aspect="equal", xlim=(-1.1, 1.6))
+    row = panels(near, 1, 3)[0]
     upper = np.where(values.imag > 0, values, 0.0).sum(axis=1)
     real = values[:, [0, -1]]
-    for axes, each, name in zip(panels, (real[:, 0], upper, real[:, 1]), "124", strict=True):
+    for axes, each, name in zip(row, (real[:, 0], upper, real[:, 1]), "124", strict=True):
         shown = axes.scatter(each.real, each.imag, c=over, s=22)
-        axes.set(xlabel="Re Λ", title=f"Λ{name}")
+        axes.set(xlabel=REAL, ylabel=IMAGINARY, title=f"Λ{name}")
         axes.locator_params(nbins=3)
-    near.colorbar(shown, ax=panels, label="amplitude of the flap (°)")
+    near.colorbar(
+        shown, ax=row, label=parameter_label(FLAP_AMPLITUDE),
+        location="bottom" if is_narrow() else "right",
+    )  # fmt: skip
     keep_figure(out, "figure 5.11", figure)
 
 
 def margin(out: Path, coarse: bool) -> None:
     """Draw moduli of the multipliers and speed over the longitudinal margin, on both wings."""
-    figure = Figure(figsize=(7.5, 6.4), layout="constrained")
-    top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=(1.6, 1))
-    for discretisation, colour in (("published", "tab:blue"), ("converged", "tab:orange")):
+    figure = new_figure(7.5, 6.4, rows=2)
+    top, bottom = panels(figure, 2, 1, sharex=True, height_ratios=(1.6, 1))[:, 0]
+    for (discretisation, marker), look in zip(
+        (("published", "o"), ("converged", "s")), SERIES, strict=False
+    ):
+        colour = look["color"]
         ibis = published_wing("ibis") if discretisation == "published" else bird("ibis")
         study = margin_study(ibis, 5 if coarse else 41)
         moduli = multiplier_moduli(study)
         valid = study["warning"].values == ""
         over = study["margin"].values
-        top.plot(over, moduli, color=colour, lw=1)
+        top.plot(over, moduli, lw=1, **look)
         for where, face in ((valid, colour), (~valid, "w")):
             for axes, values in ((top, moduli), (bottom, study["mean_speed"].values)):
                 style = {"color": colour, "markerfacecolor": face, "ms": 4}
-                axes.plot(over[where], values[where], "o", **style)
-        bottom.plot(over, study["mean_speed"], color=colour, lw=1, label=f"{discretisation} wing")
+                axes.plot(over[where], values[where], marker, **style)
+        bottom.plot(over, study["mean_speed"], lw=1, label=f"{discretisation} wing", **look)
         least = int(moduli.max(axis=1).argmin())
         top.plot(over[least], moduli[least].max(), "*", color=colour, ms=12)
     for axes in (top, bottom):
         axes.axvspan(15.0, 100 * _LEAST_MARGIN, color="0.93", zorder=0)
-        axes.axvline(33.0, color="0.6", ls=":", lw=1)
-    top.axhline(1.0, color="0.6", lw=1)
-    top.set_ylabel("|Λ|")
-    top.set_title(
+        axes.axvline(33.0, color="0.45", ls=":", lw=1)
+    top.axhline(1.0, **LEVEL)
+    top.set_ylabel(MODULUS)
+    title(
+        top,
         "filled: within the model's validity; star: least |Λ₁|; grey: no cycle in the thesis; "
         "dotted: the shipped bird",
         fontsize="small",
     )
     bottom.set(xlabel="longitudinal margin (%)", ylabel="speed (m/s)", ylim=(0, None))
-    bottom.legend(frameon=False)
+    bottom.legend(frameon=False, fontsize="small")
     figure.align_ylabels()
     keep_figure(out, "figure 5.12", figure)
 
@@ -128,20 +137,25 @@ def jacobians(out: Path, coarse: bool) -> None:
         return np.column_stack(changes) / (step * scale * (1 + central))
 
     steps = np.logspace(-10, -1, 4 if coarse else 19)
-    figure = Figure(figsize=(9.5, 4.2), layout="constrained")
-    gaps, times = figure.subplots(1, 2, width_ratios=(1.6, 1))
+    figure = new_figure(9.5, 4.2, columns=2)
+    gaps, times = panels(figure, 1, 2, width_ratios=(1.6, 1))[0]
     weights = scale / scale[:, None]
+    gaps.set_prop_cycle(SERIES)
     for label, central in (("forward differences", False), ("central differences", True)):
         found = [np.abs((by_differences(h, central) - exact) * weights).max() for h in steps]
-        gaps.loglog(steps, found, "o-", ms=4, label=label)
-    gaps.set(xlabel="step (state scale)", ylabel="largest gap from the variational Jacobian")
-    gaps.legend(frameon=False)
+        gaps.loglog(steps, found, marker="s" if central else "o", ms=4, label=label)
+    gaps.set(
+        xlabel="step (state scale)",
+        ylabel="largest gap from the\nvariational Jacobian (state scale)",
+    )
+    gaps.legend(frameon=False, fontsize="small")
     ways: Mapping[str, Callable[[], object]] = {
         "variational": lambda: model.flow_jacobian(cycle.x0, 0.0, period),
         "forward": lambda: by_differences(1e-6, False),
         "central": lambda: by_differences(1e-6, True),
     }
-    times.bar(list(ways), [1e3 * _seconds(way) for way in ways.values()], color="tab:blue")
+    times.bar(list(ways), [1e3 * _seconds(way) for way in ways.values()], color=LINE)
+    times.set_xlabel("way of differentiation")
     times.set_ylabel("processor time of a Jacobian (ms)")
     keep_figure(out, "figure 5.13", figure)
 
@@ -159,30 +173,32 @@ def _seconds(work: Callable[[], object]) -> float:
 def angles_of_attack(out: Path, _coarse: bool) -> None:
     """Draw the angle of attack of some sections over the beat, geometric and effective."""
     data = assess_validity(reference_cycle()).data
-    figure = Figure(figsize=(9.5, 4.2), layout="constrained")
-    panels = figure.subplots(1, 2, sharey=True)
-    for axes, name, title in zip(
-        panels,
+    figure = new_figure(9.5, 4.2, columns=2)
+    row = panels(figure, 1, 2, sharex=True, sharey=True)
+    for axes, name, about in zip(
+        row[0],
         ("angle_of_attack", "effective_angle_of_attack"),
         ("geometric", "effective, with the downwash"),
         strict=True,
     ):
         _draw_sections(axes, data, name)
-        axes.set(title=title, xlabel="time (beats)", xlim=(0, 1))
-    panels[0].set_ylabel("angle of attack (°)")
-    panels[1].legend(frameon=False, fontsize="small", title="part of the half-span")
+        axes.set(title=about, xlim=(0, 1))
+    label_x(row, "time (beats)")
+    label_y(row, "angle of attack (°)")
+    row[0, 1].legend(frameon=False, fontsize="small", title="part of the half-span", ncols=2)
     keep_figure(out, "figure 5.14", figure)
 
 
 def _draw_sections(axes: Axes, data: xr.Dataset, name: str) -> None:
     beats = data["time"].values / data["time"].values[-1]
     mean_span = data["span_fraction"].mean("time").values
-    for part in (0.1, 0.3, 0.5, 0.7, 0.9):
+    sections = (0.1, 0.3, 0.5, 0.7, 0.9)
+    for part, style in zip(sections, families(len(sections)), strict=True):
         element = int(np.abs(mean_span - part).argmin())
         angle = np.degrees(data[name].isel(element=element))
-        axes.plot(beats, angle, label=f"{mean_span[element]:.2f}")
+        axes.plot(beats, angle, label=f"{mean_span[element]:.2f}", **style)
     for limit in (-15, 15):
-        axes.axhline(limit, color="0.6", ls=":", lw=1)
+        axes.axhline(limit, **LEVEL)
 
 
 DRAWINGS: Mapping[str, Drawing] = {

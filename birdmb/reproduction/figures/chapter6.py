@@ -9,9 +9,10 @@ import numpy as np
 import xarray as xr
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from birdmb.figures.style import symbol
+from birdmb.figures.labels import state_symbol
+from birdmb.figures.page import columns_of, is_narrow, label_x, label_y, new_figure, panels, title
+from birdmb.figures.style import BLUE, LEVEL, ORANGE, SKY, VERMILION
 from birdmb.models import FlightCycle, GaussianGust
 from birdmb.quantities import DISSIPATORS
 from birdmb.reproduction.chapter6_flights import (
@@ -36,8 +37,8 @@ _GUSTS = {"a": (0.1, 24), "b": (1.0, 48), "c": (1.0, 48)}
 """Upward gusts (m/s), and for how many beats they are followed."""
 _COARSE_BEATS = 6
 _DIRECTIONS: tuple[tuple[GustAxes, str, str], ...] = (
-    ("body", "gust along the body's z axis", "tab:blue"),
-    ("world", "gust along the vertical", "tab:red"),
+    ("body", "gust along the body's z axis", BLUE),
+    ("world", "gust along the vertical", VERMILION),
 )
 _IN_DEGREES = {"q", "theta"}
 _UNITS = {"u": "m/s", "w": "m/s", "q": "°/s", "theta": "°"}
@@ -76,27 +77,29 @@ def _table_6_2(out: Path, coarse: bool) -> None:
 
 
 def _figure_6_3(out: Path, coarse: bool) -> None:
-    figure = Figure(figsize=(14, 6.5), layout="constrained")
-    panels = figure.subplots(2, len(TABLE_6_2) + 1, width_ratios=(*[1] * len(TABLE_6_2), 0.9))
+    wide = len(TABLE_6_2) + 1
+    figure = new_figure(14, 6.5, rows=2, columns=wide)
+    grid = panels(figure, 2, wide, width_ratios=(*[1] * len(TABLE_6_2), 0.9))
     for row, about, cycle, _ in _flights(coarse):
-        axes = panels[list(_SETUPS).index(about), list(TABLE_6_2).index(row)]
+        axes = grid[list(_SETUPS).index(about), list(TABLE_6_2).index(row)]
         _moments(axes, cycle)
-        axes.set_title(f"({row}) {about}", fontsize="medium")
-        _cost(panels[list(_SETUPS).index(about), -1], row, cycle)
-    for axes in panels[:, 0]:
-        axes.set_ylabel("pitching moment about G (N m), nose up")
-    for axes in panels[-1, :-1]:
-        axes.set_xlabel("t/T")
-    for axes in panels[:, :-1].ravel():
-        axes.sharey(panels[0, 0])
-    for axes in panels[:, -1]:
+        title(axes, f"({row}) {about}")
+        _cost(grid[list(_SETUPS).index(about), -1], row, cycle)
+    label_y(grid[:, :-1], "moment (N m)")
+    for axes in grid[:, :-1].ravel():
+        axes.set_xlabel("time (beats)")
+        axes.sharey(grid[0, 0])
+    for axes in grid[:, -1]:
+        axes.set_xlabel("flight")
         axes.set_ylabel("power (W)")
         axes.spines[["top", "right"]].set_visible(False)
-        axes.legend(
-            *_first_of_each(axes), frameon=False, fontsize="small", ncols=2, loc="upper left"
-        )
         axes.set_ylim(0.0, 29.0)
-        axes.set_title("cost of transport, and its parts", fontsize="medium")
+        title(axes, "cost of transport, and its parts")
+    handles, labels = _first_of_each(grid[0, -1])
+    figure.legend(
+        handles, labels, loc="outside lower center", frameon=False, fontsize="small",
+        ncols=columns_of(labels, 5),
+    )  # fmt: skip
     keep_figure(out, "figure 6.3", figure)
 
 
@@ -104,12 +107,15 @@ def _moments(axes: Axes, cycle: FlightCycle) -> None:
     beat, tail = cycle.beat, tail_moment(cycle)
     phase = beat.times / cycle.period
     wing = beat.moment[:, 1] - tail - beat.loads_along.stack.body_moment[:, 1]
-    for values, label, colour in ((wing, "wing", "tab:blue"), (tail, "tail", "tab:orange")):
+    for values, label, colour, dashes in (
+        (wing, "wing", BLUE, "-"),
+        (tail, "tail", VERMILION, "-."),
+    ):
         mean = round(float(values[:-1].mean()), 3)
         text = f"{label}, mean {mean + 0.0:+.3f}".replace("-", "−")
-        axes.plot(phase, values, color=colour, label=text)
-        axes.axhline(mean, color=colour, ls="--", lw=1)
-    axes.axhline(0.0, color="0.8", lw=0.8, zorder=0)
+        axes.plot(phase, values, color=colour, ls=dashes, label=text)
+        axes.axhline(mean, color=colour, ls=(0, (1, 1)), lw=0.8)
+    axes.axhline(0.0, **LEVEL)
     axes.legend(frameon=False, fontsize="small", loc="upper right")
     axes.set_xlim(0.0, 1.0)
     axes.spines[["top", "right"]].set_visible(False)
@@ -118,9 +124,7 @@ def _moments(axes: Axes, cycle: FlightCycle) -> None:
 def _cost(axes: Axes, row: str, cycle: FlightCycle) -> None:
     """A bar of what the wings' power goes to, the cost of transport above it."""
     below = 0.0
-    for name, colour in zip(
-        DISSIPATORS, ("tab:blue", "tab:cyan", "tab:orange", "0.6"), strict=True
-    ):
+    for name, colour in zip(DISSIPATORS, (BLUE, SKY, ORANGE, "0.6"), strict=True):
         power = cycle.dissipation[name]
         axes.bar(f"({row})", power, bottom=below, color=colour, label=name, width=0.6)
         below += power
@@ -138,21 +142,26 @@ def _first_of_each(axes: Axes) -> tuple[list[Artist], list[str]]:
 
 
 def _figure_6_4(out: Path, coarse: bool) -> None:
-    figure = Figure(figsize=(14, 9), layout="constrained")
-    panels = figure.subplots(len(_UNITS), len(_GUSTS), sharex="col")
+    figure = new_figure(14, 9, rows=len(_UNITS), columns=len(_GUSTS))
+    grid = panels(figure, len(_UNITS), len(_GUSTS))
     values: Values = {"wing.discretisation": 8} if coarse else {}
-    for column, (row, (strength, beats)) in zip(panels.T, _GUSTS.items(), strict=True):
+    for column, (row, (strength, beats)) in zip(grid.T, _GUSTS.items(), strict=True):
         cycle = flight_of_table_6_2(row, values).cycle
         followed = min(beats, _COARSE_BEATS) if coarse else beats
         gust = GaussianGust(vertical=strength)
         for along, label, colour in _DIRECTIONS:
             flight = gust_response(cycle, gust, axes=along, periods=followed)
             _states(column, flight, label, colour)
-        column[0].set_title(f"({row}), gust of {strength:g} m/s", fontsize="medium")
-        column[-1].set_xlabel("time (s)")
-    panels[0, -1].legend(frameon=False, fontsize="small")
-    for axes, name in zip(panels[:, 0], _UNITS, strict=True):
-        axes.set_ylabel(f"{symbol(name)} ({_UNITS[name]})")
+        for axes in column if is_narrow() else column[:1]:
+            title(axes, f"({row}), gust of {strength:g} m/s", pad=2 if is_narrow() else None)
+    label_x(grid, "time (s)")
+    handles, labels = grid[0, -1].get_legend_handles_labels()
+    figure.legend(
+        handles, labels, loc="outside lower center", frameon=False, fontsize="small",
+        ncols=columns_of(labels, 3),
+    )  # fmt: skip
+    for row_of_axes, name in zip(grid, _UNITS, strict=True):
+        label_y(row_of_axes, f"{state_symbol(name)} ({_UNITS[name]})")
     keep_figure(out, "figure 6.4", figure)
 
 
@@ -162,7 +171,7 @@ def _states(column: np.ndarray, flight: xr.Dataset, label: str, colour: str) -> 
         scale = np.degrees(1.0) if name in _IN_DEGREES else 1.0
         if not axes.lines:
             orbit = scale * flight["orbit"].sel(state=name)
-            axes.plot(time, orbit, color="0.75", lw=2, label="limit cycle")
+            axes.plot(time, orbit, color="0.7", lw=2, label="limit cycle")
         style = "-" if flight.attrs["axes"] == "body" else "--"
         states = scale * flight["states"].sel(state=name)
         axes.plot(time, states, style, color=colour, lw=0.9, label=label)

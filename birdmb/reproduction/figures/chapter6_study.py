@@ -5,16 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
+from typing import Any
 
-import matplotlib
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
 from birdmb.errors import BirdmbError
 from birdmb.figures import plot_manifold, plot_pareto
+from birdmb.figures.labels import LARGEST_MODULUS
+from birdmb.figures.page import new_figure, panels
+from birdmb.figures.style import LEVEL, families
 from birdmb.models import RigidModel
 from birdmb.reproduction.chapter6_flights import (
     SHIPPED,
@@ -34,6 +36,8 @@ from birdmb.studies.trim import trim_flight
 
 _FRONTS = (0.0, 15.0, 30.0, 45.0)  # degrees of opening
 _COARSE, _SPEED_STEP = 15, 0.1
+Style = Mapping[str, Any]
+"""Of a line."""
 _ALONG: Values = {"tail.incidence_deg": 0.0}
 _NO_DOWNWASH: Values = {**_ALONG, "tail.downwash": "none"}
 _SHORT: Values = {"tail.chord": 0.25}
@@ -67,23 +71,22 @@ def _figure_6_5(out: Path, coarse: bool) -> None:
         out / f"chapter_6_study{'_coarse' if coarse else ''}.db", every=_COARSE if coarse else 1
     )
     data = study.to_xarray()
-    figure = Figure(figsize=(12, 5), layout="constrained")
-    by_speed, by_modulus = figure.subplots(1, 2)
+    figure = new_figure(12, 5, columns=2)
+    by_speed, by_modulus = panels(figure, 1, 2)[0]
     openings = data[OPENING].values
     chosen = [float(openings[np.abs(openings - wanted).argmin()]) for wanted in _FRONTS]
-    colours = matplotlib.colormaps["viridis"](np.linspace(0.0, 0.9, len(chosen)))
-    for opening, colour in zip(chosen, colours, strict=True):
+    for opening, style in zip(chosen, families(len(chosen)), strict=True):
         at = data.sel({OPENING: opening})
         kept = at.where(within_limits(at, RULES))
         cost = kept["cost_of_transport"].values.ravel()
         label = f"{opening:g}°"
-        _least(by_speed, data, opening, colour, label)
-        _front(by_modulus, kept["largest_modulus"].values.ravel(), cost, colour, label)
+        _least(by_speed, data, opening, style, label)
+        _front(by_modulus, kept["largest_modulus"].values.ravel(), cost, style, label)
     by_speed.set(xlabel="speed of level flight (m/s)", ylabel="cost of transport", title="(a)")
-    by_modulus.axvline(1.0, color="0.5", lw=0.8, ls="--")
-    by_modulus.set(xlabel="|Λ|max", ylabel="cost of transport", title="(b)")
+    by_modulus.axvline(1.0, **LEVEL)
+    by_modulus.set(xlabel=LARGEST_MODULUS, ylabel="cost of transport", title="(b)")
     for axes in (by_speed, by_modulus):
-        axes.legend(title="tail opening", frameon=False)
+        axes.legend(title="tail opening", frameon=False, fontsize="small")
         axes.spines[["top", "right"]].set_visible(False)
     keep_figure(out, "figure 6.5", figure)
     keep_figure(out, "figure 6.5 pareto", plot_pareto(data, RULES))
@@ -91,24 +94,29 @@ def _figure_6_5(out: Path, coarse: bool) -> None:
     keep_table(out, "figure 6.5 price of stability", *_price(data))
 
 
-def _least(axes: Axes, data: xr.Dataset, opening: float, colour: FloatArray, label: str) -> None:
+def _least(axes: Axes, data: xr.Dataset, opening: float, style: Style, label: str) -> None:
     """The flights with the tail at an opening, and the least cost at each speed among them."""
     at = data.sel({OPENING: [opening]})
     kept = at.where(within_limits(at, RULES))
     speed = kept["mean_speed"].values.ravel()
-    axes.plot(speed, kept["cost_of_transport"].values.ravel(), ".", color=colour, ms=2.5, alpha=0.3)
+    axes.plot(
+        speed,
+        kept["cost_of_transport"].values.ravel(),
+        ".",
+        color=style["color"],
+        ms=2.5,
+        alpha=0.3,
+    )
     if np.isfinite(speed).any():
         speeds = np.arange(np.nanmin(speed), np.nanmax(speed), _SPEED_STEP)
-        axes.plot(speeds, least_costs(at, speeds.tolist(), limits=RULES), color=colour, label=label)
+        axes.plot(speeds, least_costs(at, speeds.tolist(), limits=RULES), label=label, **style)
 
 
-def _front(
-    axes: Axes, modulus: FloatArray, cost: FloatArray, colour: FloatArray, label: str
-) -> None:
+def _front(axes: Axes, modulus: FloatArray, cost: FloatArray, style: Style, label: str) -> None:
     """The flights, and those that no other of this opening beats in both."""
-    axes.plot(modulus, cost, ".", color=colour, ms=2.5, alpha=0.3)
+    axes.plot(modulus, cost, ".", color=style["color"], ms=2.5, alpha=0.3)
     front = pareto_front(cost, modulus)
-    axes.plot(modulus[front], cost[front], "o-", color=colour, ms=4, lw=1.8, label=label)
+    axes.plot(modulus[front], cost[front], marker="o", ms=3, lw=1.6, label=label, **style)
 
 
 def _price(data: xr.Dataset) -> tuple[list[str], list[list[object]]]:

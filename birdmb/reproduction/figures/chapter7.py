@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
-from matplotlib.figure import Figure
 
+from birdmb.figures.page import new_figure
+from birdmb.figures.style import SERIES
 from birdmb.models import MultibodyModel, RigidModel
 from birdmb.orbits import find_limit_cycle
 from birdmb.reproduction.figures.drawing import Drawing, keep_figure, keep_table
@@ -68,15 +69,16 @@ def _masses(out: Path, coarse: bool) -> None:
         rows.append([f"{mass:.0e}", *(f"{gap:+.2e}" for gap in states), f"{largest:.1e}"])
     columns = ("segment mass kg", *STATES, "largest gap of a multiplier")
     keep_table(out, "figure 7.masses", columns, rows)
-    figure = Figure(figsize=(6, 4), layout="constrained")
+    figure = new_figure(6, 4)
     axes = figure.subplots()
-    labels = ("largest gap of a state, in units of the state scale", "largest gap of a multiplier")
+    axes.set_prop_cycle(SERIES)
+    labels = ("of a state (state scale)", "of a multiplier")
     for values, label, marker in zip(np.transpose(gaps), labels, "os", strict=True):
         axes.loglog(masses, values, marker=marker, label=label)
     first = gaps[-1 if coarse else 3][0] / masses[-1 if coarse else 3]
-    axes.loglog(masses, first * masses, color="0.7", zorder=0, label="first order")
-    axes.set(xlabel="mass of a wing segment (kg)", ylabel="multibody against rigid")
-    axes.legend(frameon=False)
+    axes.loglog(masses, first * masses, color="0.7", zorder=0, ls=":", label="first order")
+    axes.set(xlabel="mass of a wing segment (kg)", ylabel="largest gap of multibody and rigid")
+    axes.legend(frameon=False, fontsize="small")
     keep_figure(out, "figure 7.masses", figure)
 
 

@@ -5,18 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm, Normalize
-from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from birdmb._typing import FloatArray
 from birdmb.errors import BirdmbError
-from birdmb.figures.style import symbol
+from birdmb.figures.labels import IMAGINARY, LARGEST_MODULUS, REAL, in_words, state_symbol
+from birdmb.figures.page import label_x, new_figure, panels, title
+from birdmb.figures.style import BLUE, VERMILION, families
 from birdmb.models import FlightCycle
 from birdmb.reproduction.chapter8_birds import (
     TABLE_8_1,
@@ -59,32 +60,32 @@ def _flights(one: Bird, springs: Sequence[Spring]) -> Iterator[tuple[Spring, Fli
 
 def _overlay(springs: Sequence[Spring], name: str, out: Path, coarse: bool) -> None:
     """Draw the states over a beat for some springs, with the flap's driver."""
-    figure = Figure(figsize=(3.2 * len(_STATES), 6.0), layout="constrained")
-    rows = figure.subplots(len(_BIRDS), len(_STATES), sharex=True)
-    colours = matplotlib.colormaps["viridis"](np.linspace(0.0, 0.85, len(springs)))
+    figure = new_figure(3.2 * len(_STATES), 6.0, rows=len(_BIRDS), columns=len(_STATES))
+    rows = panels(figure, len(_BIRDS), len(_STATES), sharex=True)
+    styles = families(len(springs))
     for row, (about, make) in zip(rows, _BIRDS.items(), strict=True):
         one = _resolved(make(), coarse)
         for spring, cycle in _flights(one, springs):
-            colour = colours[list(springs).index(spring)]
+            style = styles[list(springs).index(spring)]
             for axes, state in zip(row, _STATES, strict=True):
-                _state(axes, cycle, state, colour, _named(spring))
-        row[0].set_title(about, fontsize="medium", loc="left")
-        row[0].legend(frameon=False, fontsize="x-small")
-        row[-1].plot(*_driver(one), "k--", lw=1, label="driver")
-        row[-1].legend(frameon=False, fontsize="x-small")
+                _state(axes, cycle, state, style, _named(spring))
+        title(row[0], about, loc="left")
+        row[0].legend(frameon=False, fontsize="small")
+        row[-1].plot(*_driver(one), color=VERMILION, ls=(0, (10, 3)), lw=1, label="driver")
+        row[-1].legend(frameon=False, fontsize="small")
         for axes, state in zip(row, _STATES, strict=True):
-            axes.set_ylabel(f"{symbol(state)} ({_STATES[state]})")
+            axes.set_ylabel(f"{in_words(state_symbol(state))} ({_STATES[state]})")
             axes.spines[["top", "right"]].set_visible(False)
-    for axes in rows[-1]:
-        axes.set(xlabel="t/T", xlim=(0.0, 1.0))
+    rows[0, 0].set_xlim(0.0, 1.0)
+    label_x(rows, "time (beats)")
     keep_figure(out, name, figure)
 
 
-def _state(axes: Axes, cycle: FlightCycle, state: str, colour: FloatArray, label: str) -> None:
+def _state(axes: Axes, cycle: FlightCycle, state: str, style: dict[str, Any], label: str) -> None:
     scale = 1.0 if _STATES[state] == "m/s" else np.degrees(1.0)
     values = cycle.beat.states[:, cycle.state_names.index(state)]
     shown = label if state == next(iter(_STATES)) else None
-    axes.plot(cycle.beat.times / cycle.period, scale * values, color=colour, label=shown)
+    axes.plot(cycle.beat.times / cycle.period, scale * values, label=shown, **style)
 
 
 def _driver(one: Bird) -> tuple[np.ndarray, np.ndarray]:
@@ -103,8 +104,8 @@ def _locus(springs: Sequence[Spring], label: str, name: str, out: Path, coarse: 
     """Draw the multipliers in the plane and the largest modulus over k or C."""
     chosen = springs[:: max(1, len(springs) // 3)] if coarse else springs
     which = 0 if label.startswith("k") else 1
-    figure = Figure(figsize=(14, 5), layout="constrained")
-    planes = figure.subplots(1, len(_BIRDS) + 1)
+    figure = new_figure(14, 5, columns=len(_BIRDS) + 1)
+    planes = panels(figure, 1, len(_BIRDS) + 1)[0]
     colours = matplotlib.colormaps["viridis"]
     values = [spring[which] for spring in springs]
     norm = (LogNorm if min(values) > 0.0 else Normalize)(min(values), max(values))
@@ -114,18 +115,20 @@ def _locus(springs: Sequence[Spring], label: str, name: str, out: Path, coarse: 
         for spring, cycle in flown:
             colour = colours(norm(spring[which]))
             axes.plot(cycle.multipliers.real, cycle.multipliers.imag, ".", color=colour, ms=7)
-        axes.set(xlabel="Re Λ", ylabel="Im Λ", aspect="equal", xlim=(-1.1, 1.7), ylim=(-1.1, 1.1))
-        axes.set_title(about, fontsize="medium")
+        axes.set(xlabel=REAL, ylabel=IMAGINARY, aspect="equal", xlim=(-1.1, 1.7), ylim=(-1.1, 1.1))
+        title(axes, about)
         largest = [float(np.abs(cycle.multipliers).max()) for _, cycle in flown]
         over = [spring[which] for spring, _ in flown]
-        planes[-1].plot(over, largest, f"-{marker}", ms=4, label=about)
+        dashes = {"o": "-", "s": "--"}[marker]
+        shade = {"o": BLUE, "s": VERMILION}[marker]
+        planes[-1].plot(over, largest, marker=marker, ls=dashes, color=shade, ms=4, label=about)
     printed = {
         spring[which]: row[0]
         for spring, row in TABLE_8_1.items()
         if spring[1 - which] == _FIXED[which]
     }
     planes[-1].plot(*zip(*printed.items(), strict=True), "k*", ms=9, label="printed")
-    planes[-1].set(xlabel=label, ylabel="|Λ|max")
+    planes[-1].set(xlabel=label, ylabel=LARGEST_MODULUS)
     planes[-1].legend(frameon=False, fontsize="small")
     for axes in planes:
         axes.spines[["top", "right"]].set_visible(False)

@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
+from birdmb.figures.page import new_figure, panels
+from birdmb.figures.style import LEVEL, SERIES
 from birdmb.models import BirdModel, FlightCycle, GaussianGust, MultibodyModel
 from birdmb.models.motion import heading_velocity
 from birdmb.orbits import find_limit_cycle
@@ -35,14 +36,14 @@ def _figure_8_7(out: Path, coarse: bool) -> None:
     cycles = {"prescribed flap": _firm(one)}
     for k, c in _SPRINGS:
         cycles[f"k = {k:g}, C = {c:g}"] = sprung_flight(one, k, c)
-    figure = Figure(figsize=(7.5, 8), layout="constrained")
-    rows = figure.subplots(4, 1, sharex=True, height_ratios=(0.6, 1, 1, 1))
-    for (label, cycle), colour in zip(cycles.items(), ("0.3", "tab:blue", "tab:red"), strict=True):
+    figure = new_figure(7.5, 8, rows=4)
+    rows = panels(figure, 4, 1, sharex=True, height_ratios=(0.6, 1, 1, 1))[:, 0]
+    for (label, cycle), style in zip(cycles.items(), SERIES, strict=False):
         time, increments = _increments(cycle)
         for axes, values in zip(rows[1:], increments, strict=True):
             if np.isfinite(values).any():
                 text = f"{label}, largest {np.abs(values).max():.3g}"
-                axes.plot(time, values, color=colour, label=text)
+                axes.plot(time, values, label=text, **style)
     time = np.linspace(0.0, time[-1], 200)
     rows[0].plot(time, [_GUST(float(t))[1] for t in time], "k")
     for axes, label in zip(
@@ -51,7 +52,7 @@ def _figure_8_7(out: Path, coarse: bool) -> None:
         strict=True,
     ):
         axes.set_ylabel(label)
-        axes.axhline(0.0, color="0.8", lw=0.8, zorder=0)
+        axes.axhline(0.0, **LEVEL)
         axes.spines[["top", "right"]].set_visible(False)
     for axes in rows[1:]:
         axes.legend(frameon=False, fontsize="small")

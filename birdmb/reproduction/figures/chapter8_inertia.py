@@ -12,9 +12,11 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
+from birdmb.figures.labels import LARGEST_MODULUS
+from birdmb.figures.page import label_x, label_y, new_figure, panels, title
+from birdmb.figures.style import LINE, VERMILION
 from birdmb.models import MultibodyModel
 from birdmb.orbits import Branch, Steps, continue_branch, load_branch
 from birdmb.reproduction.chapter8_birds import TABLE_8_1
@@ -24,7 +26,7 @@ from birdmb.studies import flight_observables
 from birdmb.studies.validity import LARGEST_ANGLE
 from birdmb.topology import Bird
 
-_QUANTITIES = ("|Λ|max", "P_act (W)", "P_g (W)")
+_QUANTITIES = (LARGEST_MODULUS, r"$P_\mathrm{act}$ (W)", r"$P_\mathrm{g}$ (W)")
 _BONES = ("humerus", "forearm", "hand")
 _PRINTED = 0.01  # kg m2
 _STEPS_PER_BEAT = 60
@@ -112,25 +114,31 @@ def _inertia(out: Path, coarse: bool) -> None:
         ),
         [_row(*one) for one in branches.items()],
     )  # fmt: skip
-    figure = Figure(figsize=(13, 7.5), layout="constrained")
-    panels = figure.subplots(3, len(branches), sharex=True, sharey="row", squeeze=False)
-    for column, (spring, branch) in zip(panels.T, branches.items(), strict=True):
+    figure = new_figure(13, 7.5, rows=3, columns=len(branches))
+    grid = panels(figure, 3, len(branches), sharex=True, sharey="row")
+    for column, (spring, branch) in zip(grid.T, branches.items(), strict=True):
         moments = branch.parameters
         valid = branch.values("largest_angle_of_attack") <= LARGEST_ANGLE
         for axes, values, wanted in zip(
             column, _quantities(branch), TABLE_8_1[spring], strict=True
         ):
             seen = np.where(_widest(branch) < _UPRIGHT, values, np.nan)
-            axes.plot(1e3 * moments, seen, "-", color="0.6", lw=1)
-            axes.plot(1e3 * moments, np.where(valid, seen, np.nan), "-", color="C0", lw=2.5)
-            axes.axhline(wanted, color="C3", ls="--", lw=1.2)
+            axes.plot(1e3 * moments, seen, ":", color="0.45", lw=1.2)
+            axes.plot(1e3 * moments, np.where(valid, seen, np.nan), "-", color=LINE, lw=2.5)
+            axes.axhline(wanted, color=VERMILION, ls="--", lw=1.2)
             axes.spines[["top", "right"]].set_visible(False)
-        column[0].set_title(f"k = {spring[0]:g}, C = {spring[1]:g}")
-    for axes, name, limits in zip(
-        panels[:, 0], _QUANTITIES, ((1.0, 1.6), (-40.0, 20.0), (-10.0, 60.0)), strict=True
+        title(column[0], f"k = {spring[0]:g}, C = {spring[1]:g}")
+    for row, name, limits in zip(
+        grid, _QUANTITIES, ((1.0, 1.6), (-40.0, 20.0), (-10.0, 60.0)), strict=True
     ):
-        axes.set(ylabel=name, ylim=limits)
-    figure.supxlabel("moment of inertia added to each segment about every axis (g m²)")
+        label_y(row, name)
+        row[0].set_ylim(limits)
+    label_x(grid, "added inertia (g m²)")
+    title(
+        figure,
+        "inertia added to each segment about every axis; thick: within the model's validity, "
+        "dotted: beyond it, dashed: printed",
+    )
     keep_figure(out, "figure 8.inertia", figure)
 
 

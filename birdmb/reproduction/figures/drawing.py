@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-import io
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from birdmb.figures.saving import save_figure
 from birdmb.files import write_whole
+
+_formats: ContextVar[tuple[str, ...]] = ContextVar("formats", default=("png",))
 
 
 @dataclass(frozen=True)
@@ -27,10 +31,19 @@ class Drawing:
 
 
 def keep_figure(out: Path, name: str, figure: Figure) -> None:
-    """Save a figure as PNG, "figure 5.12" as figure_5_12.png."""
-    picture = io.BytesIO()
-    figure.savefig(picture, format="png", dpi=150)
-    write_whole(out / f"{_file_name(name)}.png", picture.getvalue())
+    """Save a figure in the formats asked for, "figure 5.12" as figure_5_12.png."""
+    for kind in _formats.get():
+        save_figure(figure, out / f"{_file_name(name)}.{kind}")
+
+
+@contextmanager
+def kept_as(formats: Sequence[str]) -> Iterator[None]:
+    """Let `keep_figure` save in these formats within; PNG without."""
+    token = _formats.set(tuple(formats))
+    try:
+        yield
+    finally:
+        _formats.reset(token)
 
 
 def keep_table(
