@@ -45,31 +45,36 @@ def _aft_at(wing: WingArrays, bones: Chain, angles: Array, bone: int, position: 
 
 
 @kernel
+def feather_tip(wing: WingArrays, bones: Chain, angles: Array, feather: int) -> Array:
+    """The tip (3,) of one feather."""
+    bone, share = wing.feather_bone[feather], wing.feather_share[feather]
+    followed = 0
+    while followed < share.size and share[followed] == 1.0:
+        followed += 1
+    R = bones.frame[followed]
+    for j in range(followed, share.size):
+        if share[j] != 0.0:
+            R = rotate_about(R, wing.axis[j], share[j] * angles[j])
+    # The rest angle turns from straight aft (0) to outwards along the bone (90 deg).
+    rest, along = wing.feather_rest_angle[feather], bones.rotation[bone][:, 1]
+    direction = -np.cos(rest) * R[:, 0] + np.sin(rest) * R[:, 1]
+    hinge = wing.feather_hinge[feather]
+    if hinge >= 0:
+        direction = turned_about(along, angles[hinge], direction)
+    position = wing.feather_position[feather]
+    aft, tip = _aft_at(wing, bones, angles, bone, position), np.empty(3, angles.dtype)
+    for i in range(3):
+        root = bones.origin[bone, i] + position * wing.bone_length[bone] * along[i]
+        tip[i] = root + wing.half_thickness * aft[i] + wing.feather_length[feather] * direction[i]
+    return tip
+
+
+@kernel
 def trailing_edge(wing: WingArrays, bones: Chain, angles: Array) -> Array:
     """Vertices (F, 3) of the trailing edge: the tips of the feathers, from shoulder to wing tip."""
-    n = wing.feather_length.size
-    vertices = np.empty((n, 3), angles.dtype)
-    for i in range(n):
-        bone = wing.feather_bone[i]
-        R = np.eye(3).astype(angles.dtype)
-        for j in range(wing.segment.size):
-            share = wing.feather_share[i, j]
-            if share != 0.0:
-                R = rotate_about(R, wing.axis[j], share * angles[j])
-        # The rest angle turns from straight aft (0) to outwards along the bone (90 deg).
-        direction = (
-            -np.cos(wing.feather_rest_angle[i]) * R[:, 0]
-            + np.sin(wing.feather_rest_angle[i]) * R[:, 1]
-        )
-        hinge = wing.feather_hinge[i]
-        if hinge >= 0:
-            direction = turned_about(bones.rotation[bone][:, 1], angles[hinge], direction)
-        root = (
-            bones.origin[bone]
-            + wing.feather_position[i] * wing.bone_length[bone] * bones.rotation[bone][:, 1]
-            + wing.half_thickness * _aft_at(wing, bones, angles, bone, wing.feather_position[i])
-        )
-        vertices[i] = root + wing.feather_length[i] * direction
+    vertices = np.empty((wing.feather_length.size, 3), angles.dtype)
+    for i in range(vertices.shape[0]):
+        vertices[i] = feather_tip(wing, bones, angles, i)
     return vertices
 
 
@@ -125,14 +130,25 @@ def leading_edge(wing: WingArrays, bones: Chain, tip: Array) -> Array:
 @kernel
 def wing_edges(wing: WingArrays, angles: Array) -> tuple[Array, Array]:
     """Vertices (m, 3) of the leading and of the trailing edge, m, at `angles` (A,) rad."""
-    bones = joint_chain(wing, angles)
+    return edges_along(wing, joint_chain(wing, angles), angles)
+
+
+@kernel
+def edges_along(wing: WingArrays, bones: Chain, angles: Array) -> tuple[Array, Array]:
+    """As `wing_edges`, of bones that are placed."""
     if wing.section_bone.size > 0:
         return section_ends(wing, bones, angles)
     trailing = trailing_edge(wing, bones, angles)
-    leading = leading_edge(wing, bones, trailing[-1])
+    return leading_edge_to(wing, bones, trailing[-1]), trailing
+
+
+@kernel
+def leading_edge_to(wing: WingArrays, bones: Chain, tip: Array) -> Array:
+    """Vertices (m, 3) of the leading edge of feathers, of which the last ends at `tip` (3,)."""
+    leading = leading_edge(wing, bones, tip)
     if wing.square_tip:
         leading = _without_tip_edge(leading)
-    return leading, trailing
+    return leading
 
 
 @kernel

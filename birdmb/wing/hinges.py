@@ -12,14 +12,26 @@ import numpy as np
 from birdmb._kernels import kernel
 from birdmb._typing import Array, ComplexArray, FloatArray, IntArray
 from birdmb.wing.arrays import WingArrays
-from birdmb.wing.edges import COMPLEX_STEP, wing_edges
+from birdmb.wing.chain import Chain
+from birdmb.wing.edges import (
+    COMPLEX_STEP,
+    edges_along,
+    feather_tip,
+    leading_edge_to,
+    wing_edges,
+)
 from birdmb.wing.line import PairedEdges, line_to_follow, moved_line, solved_line
 from birdmb.wing.one_step import one_step_line
 
 
 @kernel
 def orthogonal_wing(
-    wing: WingArrays, angles: ComplexArray, stations: int, rounding: float, moving: IntArray
+    wing: WingArrays,
+    bones: Chain,
+    angles: ComplexArray,
+    stations: int,
+    rounding: float,
+    moving: IntArray,
 ) -> tuple[PairedEdges, Array, Array, FloatArray]:
     """Orthogonal line of a wing at `angles` (A,) rad, whose imaginary parts carry rates.
 
@@ -28,28 +40,57 @@ def orthogonal_wing(
     `moving` (M,): velocities (m) of the N control points, every second station, and angular
     velocities of their chords.
     """
-    leading, trailing = wing_edges(wing, angles)
+    leading, trailing = edges_along(wing, bones, angles)
     line = solved_line(leading, trailing, stations, rounding)
     pairs = moved_line(line, leading, trailing, rounding)
     twist = np.empty((moving.size, stations // 2, 6))
     for m in range(moving.size):
-        moving_leading, moving_trailing = wing_edges(wing, _one_moving(angles, moving[m]))
+        moving_leading, moving_trailing = _edges_moved(wing, bones, angles, trailing, moving[m])
         twist[m] = _control_twist(moved_line(line, moving_leading, moving_trailing, rounding))
     return pairs, leading, line_to_follow(line, pairs), twist
 
 
 @kernel
 def one_step_wing(
-    wing: WingArrays, angles: ComplexArray, stations: int, moving: IntArray
+    wing: WingArrays, bones: Chain, angles: ComplexArray, stations: int, moving: IntArray
 ) -> tuple[PairedEdges, Array, Array, FloatArray]:
     """As `orthogonal_wing` with the published line; see `one_step_line` about its direction."""
-    leading, trailing = wing_edges(wing, angles)
+    leading, trailing = edges_along(wing, bones, angles)
     pairs, guide = one_step_line(leading, trailing, stations)
     twist = np.empty((moving.size, stations // 2, 6))
     for m in range(moving.size):
-        moving_leading, moving_trailing = wing_edges(wing, _one_moving(angles, moving[m]))
+        moving_leading, moving_trailing = _edges_moved(wing, bones, angles, trailing, moving[m])
         twist[m] = _control_twist(one_step_line(moving_leading, moving_trailing, stations)[0])
     return pairs, leading, guide, twist
+
+
+@kernel
+def _edges_moved(
+    wing: WingArrays, bones: Chain, angles: ComplexArray, trailing: ComplexArray, which: int
+) -> tuple[ComplexArray, ComplexArray]:
+    """The edges (m, 3) m, with the rates that one of the angles gives them as imaginary parts."""
+    alone = _one_moving(angles, which)
+    if which < wing.segment.size:
+        return wing_edges(wing, alone)
+    # A hinge moves feathers alone.
+    still = _without_rates(bones)
+    moved = trailing.real.astype(np.complex128)
+    for i in range(wing.feather_hinge.size):
+        if wing.feather_hinge[i] == which:
+            moved[i] = feather_tip(wing, still, alone, i)
+    return leading_edge_to(wing, still, moved[-1]), moved
+
+
+@kernel
+def _without_rates(bones: Chain) -> Chain:
+    return Chain(
+        bones.axis.real.astype(np.complex128),
+        bones.frame.real.astype(np.complex128),
+        bones.origin.real.astype(np.complex128),
+        bones.tip.real.astype(np.complex128),
+        bones.rotation.real.astype(np.complex128),
+        bones.root_rotation.real.astype(np.complex128),
+    )
 
 
 @kernel

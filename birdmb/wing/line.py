@@ -22,7 +22,12 @@ import numpy as np
 from birdmb._kernels import kernel
 from birdmb._typing import Array, ComplexArray, FloatArray
 from birdmb.wing.line_ends import LineEnds, line_ends
-from birdmb.wing.rounded import RoundedPolyline, points, points_and_tangents, rounded_polyline
+from birdmb.wing.rounded import (
+    RoundedPolyline,
+    points,
+    rounded_polyline,
+    write_points_and_tangents,
+)
 
 MAX_NEWTON_STEPS = 40
 SHORTEST_DAMPING = 1e-3
@@ -46,23 +51,20 @@ class PairedEdges(NamedTuple):
     converged: bool
 
 
-class Pairs(NamedTuple):
-    """Paired points of real edges, each (n, 3) m, and their derivatives by their own shift."""
-
-    leading: FloatArray
-    trailing: FloatArray
-    leading_slope: FloatArray
-    trailing_slope: FloatArray
-
-
 class Linearised(NamedTuple):
-    """The residual's derivative by the shifts, tridiagonal, and the pairs' by their own shift."""
+    """Pairs of real edges, the residual and its derivative by the shifts, which is tridiagonal.
 
-    lower: FloatArray  # (n,) m2
-    diagonal: FloatArray  # (n,)
-    upper: FloatArray  # (n,)
+    Made once a search and written over at each step: at this size making arrays takes longest.
+    """
+
     leading: FloatArray  # (n, 3) m
     trailing: FloatArray  # (n, 3) m
+    leading_slope: FloatArray  # (n, 3) m, by the pair's own shift
+    trailing_slope: FloatArray  # (n, 3) m
+    residual: FloatArray  # (n,) m2
+    lower: FloatArray  # (n,) m2
+    diagonal: FloatArray  # (n,) m2
+    upper: FloatArray  # (n,) m2
 
 
 class SolvedLine(NamedTuple):
@@ -88,17 +90,19 @@ def station_parameters(n: int) -> FloatArray:
 
 
 @kernel
-def _solve_tridiagonal(lower: Array, diagonal: Array, upper: Array, rhs: Array) -> Array:
-    """Thomas algorithm; row i reads lower[i] x[i-1] + diagonal[i] x[i] + upper[i] x[i+1]."""
-    n = diagonal.size
-    c = np.empty(n)
-    x = np.empty(n)
-    c[0] = upper[0] / diagonal[0]
-    x[0] = rhs[0] / diagonal[0]
+def _newton_step(linear: Linearised, residual: FloatArray) -> FloatArray:
+    """Change (n,) of the shifts that makes the `residual` (n,) vanish to first order.
+
+    Thomas algorithm; row i reads lower[i] x[i-1] + diagonal[i] x[i] + upper[i] x[i+1].
+    """
+    n = residual.size
+    c, x = np.empty(n), np.empty(n)
+    c[0] = linear.upper[0] / linear.diagonal[0]
+    x[0] = -residual[0] / linear.diagonal[0]
     for i in range(1, n):
-        pivot = diagonal[i] - lower[i] * c[i - 1]
-        c[i] = upper[i] / pivot
-        x[i] = (rhs[i] - lower[i] * x[i - 1]) / pivot
+        per_pivot = 1.0 / (linear.diagonal[i] - linear.lower[i] * c[i - 1])
+        c[i] = linear.upper[i] * per_pivot
+        x[i] = (-residual[i] - linear.lower[i] * x[i - 1]) * per_pivot
     for i in range(n - 2, -1, -1):
         x[i] -= c[i] * x[i + 1]
     return x
@@ -112,69 +116,70 @@ def _pair(
 
 
 @kernel
-def _steps(A: Array, B: Array, ends: LineEnds, last: float) -> Array:
-    """What the chord of each station is to be orthogonal to, (n, 3) m; the first is not used.
+def _obliqueness(A: Array, B: Array, ends: LineEnds, last: float) -> Array:
+    """Residual chord . step (n,) m^2, zero where chords are given: at shoulder and pointed tip.
 
-    Central differences of the line but for the ends; `last` is the parameter's last step.
+    The steps are central differences of the line but for the ends; `last` is the parameter's last.
     """
     n = A.shape[0]
-    P = 0.75 * A + 0.25 * B
-    steps = np.zeros_like(A)
-    steps[1:-1] = P[2:] - P[:-2]
-    steps[1] -= ends.shoulder * (P[1] - P[0])
-    steps[n - 1] = ends.tip * (P[n - 1] - P[n - 2]) + (1.0 - ends.tip) * last * ends.direction
-    return steps
-
-
-@kernel
-def _obliqueness(A: Array, B: Array, steps: Array, ends: LineEnds) -> Array:
-    """Residual chord . step (n,) m^2, zero where chords are given: at shoulder and pointed tip."""
-    n = A.shape[0]
     F = np.zeros(n, A.dtype)
-    for j in range(1, n if ends.square else n - 1):
-        for i in range(3):
-            F[j] += (B[j, i] - A[j, i]) * steps[j, i]
+    for i in range(3):
+        behind, here = 0.75 * A[0, i] + 0.25 * B[0, i], 0.75 * A[1, i] + 0.25 * B[1, i]
+        first = here - behind
+        for j in range(1, n - 1):
+            ahead = 0.75 * A[j + 1, i] + 0.25 * B[j + 1, i]
+            F[j] += (B[j, i] - A[j, i]) * (ahead - behind)
+            behind, here = here, ahead
+        F[1] -= (B[1, i] - A[1, i]) * ends.shoulder * first
+        if ends.square:
+            step = ends.tip * (here - behind) + (1.0 - ends.tip) * last * ends.direction[i]
+            F[n - 1] += (B[n - 1, i] - A[n - 1, i]) * step
     return F
 
 
 @kernel
-def _paired(
-    leading: RoundedPolyline, trailing: RoundedPolyline, s: FloatArray, shift: FloatArray
-) -> Pairs:
-    """As `_pair` with the derivatives, of real edges."""
-    A, slope_A = points_and_tangents(leading, s - shift)
-    B, slope_B = points_and_tangents(trailing, s + 3.0 * shift)
-    return Pairs(A, B, -slope_A, 3.0 * slope_B)
-
-
-@kernel
-def _linearised(pairs: Pairs, steps: FloatArray, ends: LineEnds) -> Linearised:
-    A, B, dA, dB = pairs
-    n = A.shape[0]
-    lower = np.zeros(n)
-    diagonal = np.ones(n)
-    upper = np.zeros(n)
+def _linearise(
+    line: tuple[RoundedPolyline, RoundedPolyline, LineEnds],
+    s: FloatArray,
+    shift: FloatArray,
+    out: Linearised,
+) -> float:
+    """Write pairs, residual and derivatives at the shifts (n,); the residual's sum of squares."""
+    leading, trailing, ends = line
+    A, B, dA, dB, F, lower, diagonal, upper = out
+    n, last = s.size, s[-1] - s[-2]
+    write_points_and_tangents(leading, s - shift, A, dA)
+    write_points_and_tangents(trailing, s + 3.0 * shift, B, dB)
+    for j in range(n):
+        F[j] = lower[j] = upper[j] = 0.0
+        diagonal[j] = 1.0
+        for i in range(3):
+            dA[j, i] *= -1.0
+            dB[j, i] *= 3.0
     for j in range(1, n if ends.square else n - 1):
-        diagonal[j] = 0.0
         ahead, here, behind = 1.0, 0.0, -1.0
         if j == 1:
             here, behind = -ends.shoulder.real, ends.shoulder.real - 1.0
         if j == n - 1:
             ahead, here, behind = 0.0, ends.tip.real, -ends.tip.real
+        before, after = j - 1, min(j + 1, n - 1)
+        oblique = by_own = by_before = by_after = 0.0
         for i in range(3):
-            c = B[j, i] - A[j, i]
-            dP = 0.75 * dA[j, i] + 0.25 * dB[j, i]
-            diagonal[j] += (dB[j, i] - dA[j, i]) * steps[j, i] + here * c * dP
-            if j < n - 1:
-                upper[j] += ahead * c * (0.75 * dA[j + 1, i] + 0.25 * dB[j + 1, i])
-            lower[j] += behind * c * (0.75 * dA[j - 1, i] + 0.25 * dB[j - 1, i])
-    return Linearised(lower, diagonal, upper, dA, dB)
-
-
-@kernel
-def _newton_step(linear: Linearised, F: FloatArray) -> FloatArray:
-    """Change of the shifts that makes the residual `F` vanish to first order."""
-    return _solve_tridiagonal(linear.lower, linear.diagonal, linear.upper, -F)
+            chord = B[j, i] - A[j, i]
+            step = (
+                ahead * (0.75 * A[after, i] + 0.25 * B[after, i])
+                + here * (0.75 * A[j, i] + 0.25 * B[j, i])
+                + behind * (0.75 * A[before, i] + 0.25 * B[before, i])
+            )
+            if j == n - 1:
+                step += (1.0 - ends.tip.real) * last * ends.direction[i].real
+            oblique += chord * step
+            own = 0.75 * dA[j, i] + 0.25 * dB[j, i]
+            by_own += (dB[j, i] - dA[j, i]) * step + here * chord * own
+            by_after += ahead * chord * (0.75 * dA[after, i] + 0.25 * dB[after, i])
+            by_before += behind * chord * (0.75 * dA[before, i] + 0.25 * dB[before, i])
+        F[j], lower[j], diagonal[j], upper[j] = oblique, by_before, by_own, by_after
+    return np.sum(F * F)
 
 
 @kernel
@@ -186,27 +191,29 @@ def _solve_shifts(
     tolerance: float,
 ) -> tuple[FloatArray, Linearised, bool]:
     """Damped Newton iteration for the shifts; also whether it reached the tolerance."""
-    shift = guess
-    last = s[-1] - s[-2]
-    ends = line_ends(leading, trailing, last)
-    pairs = _paired(leading, trailing, s, shift)
-    steps = _steps(pairs.leading, pairs.trailing, ends, last)
-    F = _obliqueness(pairs.leading, pairs.trailing, steps, ends)
-    linear = _linearised(pairs, steps, ends)
+    shift, n = guess, s.size
+    line = leading, trailing, line_ends(leading, trailing, s[-1] - s[-2])
+    linear = Linearised(
+        np.empty((n, 3)),
+        np.empty((n, 3)),
+        np.empty((n, 3)),
+        np.empty((n, 3)),
+        np.empty(n),
+        np.empty(n),
+        np.empty(n),
+        np.empty(n),
+    )
+    squares = _linearise(line, s, shift, linear)
     earlier = 0.0
     for _ in range(MAX_NEWTON_STEPS):
-        step = _newton_step(linear, F)
-        before = np.sum(F * F)
-        damping = 1.0
+        step = _newton_step(linear, linear.residual)
+        before, damping = squares, 1.0
         while True:
-            pairs = _paired(leading, trailing, s, shift + damping * step)
-            steps = _steps(pairs.leading, pairs.trailing, ends, last)
-            F = _obliqueness(pairs.leading, pairs.trailing, steps, ends)
-            if np.sum(F * F) <= before or damping < SHORTEST_DAMPING:
+            squares = _linearise(line, s, shift + damping * step, linear)
+            if squares <= before or damping < SHORTEST_DAMPING:
                 break
             damping *= 0.5
         shift = shift + damping * step
-        linear = _linearised(pairs, steps, ends)
         size = np.max(np.abs(step))
         # Where full steps converge quadratically, the next one would be about size^3/earlier^2.
         quadratic = damping == 1.0 and size < QUADRATIC * earlier
@@ -273,12 +280,11 @@ def moved_line(
     A, B = _pair(moving_leading, moving_trailing, s, line.shift.astype(np.complex128))
     last = s[-1] - s[-2]
     ends = line_ends(moving_leading, moving_trailing, last)
-    rate = _obliqueness(A, B, _steps(A, B, ends, last), ends).imag.copy()
-    shift_rate = _newton_step(linear, rate)
+    shift_rate = _newton_step(linear, _obliqueness(A, B, ends, last).imag.copy())
     for j in range(s.size):
         for i in range(3):
-            A[j, i] += 1j * linear.leading[j, i] * shift_rate[j]
-            B[j, i] += 1j * linear.trailing[j, i] * shift_rate[j]
+            A[j, i] += 1j * linear.leading_slope[j, i] * shift_rate[j]
+            B[j, i] += 1j * linear.trailing_slope[j, i] * shift_rate[j]
     return PairedEdges(A, B, line.converged)
 
 

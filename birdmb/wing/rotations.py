@@ -23,21 +23,14 @@ def rotate_about(R: Array, axis: FloatArray, angle: complex) -> Array:
     c = np.cos(angle)
     s = np.sin(angle)
     k = 1.0 - c
-    Q = np.empty_like(R)
-    Q[0, 0] = c + x * x * k
-    Q[0, 1] = x * y * k - z * s
-    Q[0, 2] = x * z * k + y * s
-    Q[1, 0] = x * y * k + z * s
-    Q[1, 1] = c + y * y * k
-    Q[1, 2] = y * z * k - x * s
-    Q[2, 0] = x * z * k - y * s
-    Q[2, 1] = y * z * k + x * s
-    Q[2, 2] = c + z * z * k
-    out = np.zeros_like(R)
+    xy, xz, yz = x * y * k, x * z * k, y * z * k
+    xx, yy, zz = c + x * x * k, c + y * y * k, c + z * z * k
+    out = np.empty_like(R)
     for i in range(3):
-        for j in range(3):
-            for m in range(3):
-                out[i, j] += R[i, m] * Q[m, j]
+        a, b, d = R[i, 0], R[i, 1], R[i, 2]
+        out[i, 0] = a * xx + b * (xy + z * s) + d * (xz - y * s)
+        out[i, 1] = a * (xy - z * s) + b * yy + d * (yz + x * s)
+        out[i, 2] = a * (xz + y * s) + b * (yz - x * s) + d * zz
     return out
 
 

@@ -146,15 +146,16 @@ def shape_of_edges(
     Of `published`, `None` is false: numba then does not compile what only the other line needs.
     """
     moving = angles + 1j * COMPLEX_STEP * rates
+    bones, stations = joint_chain(wing, moving), 2 * elements
     if published is not None:
-        pairs, leading, guide, per_rate = one_step_wing(wing, moving, 2 * elements, singly)
+        pairs, leading, guide, per_rate = one_step_wing(wing, bones, moving, stations, singly)
     else:
         pairs, leading, guide, per_rate = orthogonal_wing(
-            wing, moving, 2 * elements, rounding, singly
+            wing, bones, moving, stations, rounding, singly
         )
     per_hinge = per_rate[singly.size - (wing.offset.size - wing.segment.size) :].copy()
     shape = _assemble(wing, pairs, guide, leading, per_hinge, rounding, published is not None)
-    forward = joint_chain(wing, moving).rotation[0, :, 0].real
+    forward = bones.rotation[0, :, 0].real
     # Written so that what is not finite does not pass.
     sound = bool(np.isfinite(shape.line).all() and np.isfinite(shape.velocity).all())
     for e in range(elements):
