@@ -12,6 +12,7 @@ from birdmb import (
     ArgumentError,
     BirdmbError,
     ConvergenceError,
+    DataFileError,
     OrbitError,
     StateError,
     TopologyError,
@@ -51,3 +52,8 @@ said(StateError, lambda: model.flow([float("nan"), 0.0, 0.0, 0.0], 0.0, model.pe
 
 resting = birdmb.OdeModel(lambda _t, s: [-s[0], -s[1]], ("x", "y"), guess=[1.0, 0.0])
 said(OrbitError, lambda: birdmb.find_limit_cycle(resting, period_guess=1.0))
+
+# %%
+# Files that are not there, or hold something else.
+
+said(DataFileError, lambda: birdmb.load_cycle("cycle_of_yesterday.nc"))

@@ -6,6 +6,9 @@ The ibis of the package, flown with massless wings: its limit cycle, the Floquet
 say whether it flies stably by itself, and the loads over a beat.
 """
 
+import tempfile
+from pathlib import Path
+
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -46,4 +49,13 @@ print(compliant)
 
 flight: birdmb.Flight = cycle.model.trajectory(cycle.x0, 0.0, 4 * cycle.period)
 print(np.degrees(flight.at([0.0, 0.5, 1.0])["theta"]))
+
+# %%
+# A flight is kept in a file, with its bird and all settings, and comes back equal to the last bit.
+
+with tempfile.TemporaryDirectory() as folder:
+    path = cycle.save(Path(folder) / "cycle.nc")
+    again = birdmb.load_cycle(path)
+print(again)
+assert np.array_equal(again.multipliers, cycle.multipliers)
 plt.show()

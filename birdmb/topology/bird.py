@@ -19,6 +19,7 @@ from birdmb.summary import Fact
 from birdmb.text import nearest
 from birdmb.topology.airframe import Drag, Tail
 from birdmb.topology.attachments import BODY, Attachment, body_with, segment_with
+from birdmb.topology.bird_summary import facts_of_bird
 from birdmb.topology.feathers import Feather
 from birdmb.topology.joints import Joint, Side
 from birdmb.topology.messages import Location, problem, shown, validated
@@ -181,22 +182,7 @@ class Bird(Part):
         return key
 
     def _summary(self) -> Iterator[Fact]:
-        yield Fact("mass", f"{self.total_mass:.4g}", "kg")
-        yield Fact("wingbeat", f"{self.gait.frequency:.4g}", "Hz")
-        yield Fact("segments", ", ".join(self.segments.names))
-        yield Fact("joints", str(len(self.joints)))
-        for joint in self.compliant_joints:
-            yield Fact("compliant", joint.name)
-        if self.feathers:
-            yield Fact("feathers", str(len(self.feathers)))
-        if self.hinged_feathers:
-            yield Fact("on hinges", str(len(self.hinged_feathers)))
-        if self.sections:
-            yield Fact("sections", str(len(self.sections)))
-        if self.attachments:
-            yield Fact("attachments", str(len(self.attachments)))
-        yield Fact("tail", "none" if self.tail is None else "yes")
-        yield Fact("air", self.air.wake)
+        return facts_of_bird(self)
 
     @property
     def profiles(self) -> tuple[Profile, ...]:
