@@ -5,10 +5,10 @@ machine; ratios within a run and counts of evaluations do not, or hardly.
 """
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from rich.console import Console
@@ -124,11 +124,19 @@ def search(
     return birdmb.find_limit_cycle(kind(bird), guess, method=method)
 
 
-def cycles() -> Table:
-    """Limit cycles with multipliers from a cold guess by both methods, and from a neighbour."""
-    table = Table(
-        "limit cycle", "states", "collocation", "nodes", "shooting", "ratio", "from a neighbour"
-    )
+class TimedCycle(NamedTuple):
+    """Processor times of one limit cycle with multipliers; from a cold guess but for `warm`."""
+
+    name: str
+    states: int
+    nodes: int | None
+    collocation: float  # s
+    shooting: float  # s
+    warm: float  # s, by collocation from a neighbour's orbit
+
+
+def timed_cycles() -> Iterator[TimedCycle]:
+    """Limit cycles of several birds by both methods."""
     # The published wing jumps in time: a mesh is taken.
     published = {"wing.discretisation": "published"}
     for name, kind, values in (
@@ -140,18 +148,31 @@ def cycles() -> Table:
         bird = birdmb.load_bird(TOPOLOGIES / f"{name}.toml").with_values(values)
         cycle = search(kind, bird, None, "collocation")
         near = bird.with_values({"body.mass": 1.02 * bird.body.mass})
-        cold = seconds(partial(search, kind, bird, None, "collocation"), 5)
-        warm = seconds(partial(search, kind, near, cycle, "collocation"), 5)
-        shot = seconds(partial(search, kind, bird, None, "shooting"), 1)
-        table.add_row(
+        yield TimedCycle(
             f"{name}, {'rigid' if kind is birdmb.RigidModel else 'multibody'}"
             f"{', published wing' if values else ''}",
-            str(len(cycle.x0)),
-            f"{cold * 1e3:.0f} ms",
-            str(cycle.nodes),
-            f"{shot * 1e3:.0f} ms",
-            f"{shot / cold:.1f}",
-            f"{warm * 1e3:.0f} ms",
+            len(cycle.x0),
+            cycle.nodes,
+            seconds(partial(search, kind, bird, None, "collocation"), 5),
+            seconds(partial(search, kind, bird, None, "shooting"), 1),
+            seconds(partial(search, kind, near, cycle, "collocation"), 5),
+        )
+
+
+def cycles() -> Table:
+    """Limit cycles with multipliers from a cold guess by both methods, and from a neighbour."""
+    table = Table(
+        "limit cycle", "states", "collocation", "nodes", "shooting", "ratio", "from a neighbour"
+    )
+    for timed in timed_cycles():
+        table.add_row(
+            timed.name,
+            str(timed.states),
+            f"{timed.collocation * 1e3:.0f} ms",
+            str(timed.nodes),
+            f"{timed.shooting * 1e3:.0f} ms",
+            f"{timed.shooting / timed.collocation:.1f}",
+            f"{timed.warm * 1e3:.0f} ms",
         )
     return table
 
