@@ -13,6 +13,7 @@ from birdmb.cli.drawing import requested_pictures
 from birdmb.cli.options import (
     Assignments,
     ClimbRate,
+    ExecutorName,
     Formats,
     Json,
     ModelChoice,
@@ -306,6 +307,7 @@ def tail_study(
         typer.Option(min=1, metavar="N", help="Take one of N values, for a coarse study."),
     ] = 1,
     workers: Workers = None,
+    executor: ExecutorName = "processes",
     assignments: Assignments = None,
     out: Annotated[
         Path | None,
@@ -343,6 +345,7 @@ def tail_study(
             limits=limits,
             every=every,
             workers=workers,
+            executor=executor,
             out=out,
             pictures=pictures,
         )

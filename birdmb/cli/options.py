@@ -177,6 +177,17 @@ Speed = Annotated[
         callback=number("--speed", 1e-3, 1e3, "a bird flies forwards, and no faster"),
     ),
 ]
+ExecutorName = Annotated[
+    str,
+    typer.Option(
+        "--executor",
+        metavar="NAME",
+        help="What computes: processes (of this computer), dask (a cluster of its own), "
+        "dask://HOST:PORT (the scheduler of one that runs), or mpi (the ranks of `mpiexec -n N "
+        "birdmb ...`). The store is written here alone; keep it on a local disk, for SQLite is not "
+        "for network file systems.",
+    ),
+]
 Workers = Annotated[
     int | None,
     typer.Option(

@@ -18,6 +18,7 @@ from birdmb.models.motion import FlightMotionName
 from birdmb.studies.cycles import ModelFactory
 from birdmb.studies.relevance import ignored_values
 from birdmb.studies.sweeps import Finished, Study, Trimming, sweep
+from birdmb.studies.sweeps.executors import named_executor
 from birdmb.studies.sweeps.verdicts import jump_lines, short, verdict_lines
 from birdmb.topology import Bird
 
@@ -30,6 +31,7 @@ def run(
     store: Path,
     *,
     workers: int | None,
+    executor: str,
     model: str,
     motion: FlightMotionName,
     steps_per_beat: int | None,
@@ -38,11 +40,15 @@ def run(
 ) -> None:
     """Fill the store, with progress on standard error, and say what it holds."""
     bound = bound_model(model, motion, steps_per_beat)
-    with SweepProgress(messages(), ignored_springs(bird, bound)) as progress:
+    with (
+        named_executor(executor, workers) as pool,
+        SweepProgress(messages(), ignored_springs(bird, bound)) as progress,
+    ):
         study = sweep(
             bird,
             variations,
             store=store,
+            executor=pool,
             workers=workers,
             model=bound,
             trim=trim,

@@ -25,6 +25,7 @@ from birdmb.figures.tail_study import (
 from birdmb.models import RigidModel
 from birdmb.quantities import BY_NAME
 from birdmb.studies.stability_opening import StabilityOpening, stability_openings
+from birdmb.studies.sweeps.executors import named_executor
 from birdmb.studies.sweeps.verdicts import jump_lines, short, verdict_lines
 from birdmb.studies.tail import OPENING, gait_parameters, tail_study, within_limits
 from birdmb.studies.tail_price import PriceOfStability, price_of_stability
@@ -46,6 +47,7 @@ def run(
     limits: Mapping[str, float],
     every: int,
     workers: int | None,
+    executor: str,
     out: Path | None,
     pictures: Pictures,
 ) -> None:
@@ -61,9 +63,19 @@ def run(
         prepare(out)
         reject_overwriting(store, out, [f"{store.stem}.nc"])
     console = messages()
-    with SweepProgress(console, ignored_springs(bird, RigidModel)) as progress:
+    with (
+        named_executor(executor, workers) as pool,
+        SweepProgress(console, ignored_springs(bird, RigidModel)) as progress,
+    ):
         study = tail_study(
-            bird, store, vary, trim=trim, every=every, workers=workers, on_point=progress.update
+            bird,
+            store,
+            vary,
+            trim=trim,
+            every=every,
+            workers=workers,
+            executor=pool,
+            on_point=progress.update,
         )
     data = study.to_xarray(timings=True)
     found = data["status"] == "found"
