@@ -160,7 +160,7 @@ def _draw_lines(axes: Axes, study: xr.Dataset, name: str) -> None:
         ends = ends | (grows[1:] != grows[:-1])
     # Where a sheet ends the line does.
     line_x, line_y = (np.insert(a, np.flatnonzero(ends) + 1, np.nan) for a in (x, y))
-    axes.plot(line_x, line_y, "-", color=LINE if name != "largest_modulus" else "0.6", lw=1.2)
+    axes.plot(line_x, line_y, "-", color=LINE if name != "largest_modulus" else "0.35", lw=1.2)
     for kind, style in VERDICT_MARKERS.items():
         shown = study["stability"].values == kind
         axes.plot(x[shown], y[shown], markersize=4.5, **style)

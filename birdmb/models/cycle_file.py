@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from birdmb.arguments import checked
 from birdmb.datafiles import kind_of, read_dataset
 from birdmb.errors import BirdmbError, DataFileError
 from birdmb.models.flight_cycle import FlightCycle
@@ -28,6 +29,7 @@ _MODELS: Mapping[str, type[RigidModel | MultibodyModel]] = {
 }
 
 
+@checked
 def load_cycle(path: str | PathLike[str]) -> FlightCycle:
     """The limit cycle in a NetCDF file, with its bird and its model.
 

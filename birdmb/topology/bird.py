@@ -19,7 +19,6 @@ from birdmb.summary import Fact
 from birdmb.text import nearest
 from birdmb.topology.airframe import Drag, Tail
 from birdmb.topology.attachments import BODY, Attachment, body_with, segment_with
-from birdmb.topology.bird_summary import facts_of_bird
 from birdmb.topology.feathers import Feather
 from birdmb.topology.joints import Joint, Side
 from birdmb.topology.messages import Location, problem, shown, validated
@@ -182,7 +181,15 @@ class Bird(Part):
         return key
 
     def _summary(self) -> Iterator[Fact]:
-        return facts_of_bird(self)
+        yield Fact("mass", f"{self.total_mass:.4g}", "kg")
+        yield Fact("wingbeat", f"{self.gait.frequency:.4g}", "Hz")
+        yield Fact("segments", ", ".join(self.segments.names))
+        for parts in ("joints", "feathers", "hinged_feathers", "sections", "attachments"):
+            if count := len(getattr(self, parts)):
+                yield Fact(parts.replace("_", " "), str(count))
+        yield from (Fact("compliant", joint.name) for joint in self.compliant_joints)
+        yield Fact("tail", "none" if self.tail is None else "yes")
+        yield Fact("air", self.air.wake)
 
     @property
     def profiles(self) -> tuple[Profile, ...]:
