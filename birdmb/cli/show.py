@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from birdmb.models.motion import FlightMotionName
     from birdmb.topology import Bird
 
-_MOST_FLIGHTS = 2
-
 
 @dataclass(frozen=True)
 class Wanted:
@@ -54,8 +52,6 @@ class Picture:
 
 def run(wanted: Wanted, picture: Picture, *, out: Path | None, opened: bool) -> None:
     """Find or read the flights, and write the picture of them."""
-    if len(wanted.flights) > _MOST_FLIGHTS:
-        raise InputError(f"show one flight, or two side by side, not {len(wanted.flights)}.")
     if picture.scale is not None and picture.mode is None:
         raise InputError("--scale is the amplitude of a mode; give --mode with it.")
     path = Path("_and_".join(_stem(flight) for flight in wanted.flights) + ".html")

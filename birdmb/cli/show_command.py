@@ -8,6 +8,7 @@ from typing import Annotated
 
 import typer
 
+from birdmb.cli.completion import birds_and_files
 from birdmb.cli.options import Assignments, ModelName, MotionChoice, number
 from birdmb.cli.outcome import reported
 
@@ -40,14 +41,21 @@ class ViewChoice(StrEnum):
     )
 )
 def show(
-    flights: Annotated[
-        list[str],
+    flight: Annotated[
+        str,
         typer.Argument(
-            metavar="FLIGHT [BESIDE]",
             help="Saved cycle (cycle.nc of `birdmb cycle --out`), topology file (TOML) or name of "
-            "a bird of the package. Two are shown side by side, at the same phase of the beat.",
+            "a bird of the package.",
+            autocompletion=birds_and_files,
         ),
     ],
+    beside: Annotated[
+        str | None,
+        typer.Argument(
+            help="Another one, shown beside it at the same phase of the beat.",
+            autocompletion=birds_and_files,
+        ),
+    ] = None,
     out: Annotated[
         Path | None,
         typer.Option(
@@ -146,7 +154,7 @@ def show(
 
         run(
             Wanted(
-                tuple(flights),
+                (flight,) if beside is None else (flight, beside),
                 None if model is None else model.value,
                 None if motion is None else motion.value,
                 tuple(assignments or ()),

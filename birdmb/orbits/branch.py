@@ -117,15 +117,18 @@ class Branch(Summarised):
             }
         return xr.Dataset(data, coords={"state": list(self.state_names)}, attrs=attrs)
 
-    def save(self, path: str | PathLike[str]) -> None:
+    def save(self, path: str | PathLike[str]) -> Path:
         """Write the branch to a NetCDF file, from which `load_branch` and a continuation resume.
 
         A file of that name is replaced only once the new one is whole on the disk.
 
+        Returns:
+            The path.
+
         Raises:
             OutputError: the file cannot be written.
         """
-        write_whole(path, sealed(netcdf_bytes(self.to_xarray())))
+        return write_whole(path, sealed(netcdf_bytes(self.to_xarray())))
 
     def plot(self, quantity: str | None = None) -> Figure:
         """Draw a quantity (a state's name, "period" or an observable) and the multipliers' moduli.

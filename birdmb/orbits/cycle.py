@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from os import PathLike
+from pathlib import Path
 from typing import Literal, Self
 
 import numpy as np
@@ -146,15 +147,18 @@ class LimitCycle(FloquetResult):
     def _history(self) -> str:
         return f"found by {self.method} in {len(self.iterations) - 1} iterations"
 
-    def save(self, path: str | PathLike[str]) -> None:
+    def save(self, path: str | PathLike[str]) -> Path:
         """Write the cycle to a NetCDF file; that of a bird `birdmb.load_cycle` reads.
 
         A file of that name is replaced only once the new one is whole on the disk.
 
+        Returns:
+            The path.
+
         Raises:
             OutputError: the file cannot be written.
         """
-        write_whole(path, sealed(netcdf_bytes(self.to_xarray())))
+        return write_whole(path, sealed(netcdf_bytes(self.to_xarray())))
 
 
 def cycle_type(model: Model) -> type[LimitCycle]:
