@@ -50,10 +50,10 @@ def paper(width: str | None = None) -> Iterator[None]:
     Text is 6 pt or larger at this width; panels that do not fit beside one another stand below one
     another. A figure keeps its style after the context.
 
-    ```python
-    with birdmb.figures.paper(width="90mm"):
-        cycle.plot().savefig("cycle.pdf")
-    ```
+    Example::
+
+        with birdmb.figures.paper(width="90mm"):
+            cycle.plot().savefig("cycle.pdf")
 
     Args:
         width: a number and mm, cm, in or pt; `None` for the screen.

@@ -21,6 +21,7 @@ from .seeing import alike, confusable, unlabelled, unreadable
 
 
 @pytest.mark.long
+@pytest.mark.long  # all together
 @pytest.mark.parametrize("name", gallery.GALLERY)
 def test_every_figure_in_a_column(name):
     with paper(width="90mm"):

@@ -302,7 +302,7 @@ def test_a_right_hand_side_alone_is_enough():
         ({"method": "collocation", "jacobian": "variational"}, "is of shooting"),
         ({"nodes": 20}, "odd"),
         ({"nodes": 21, "method": "shooting"}, "nodes are of collocation"),
-        ({"method": "newton"}, '"auto", "collocation", "shooting"'),
+        ({"method": "newton"}, '"auto", "collocation" or "shooting"'),
         ({"accuracy": 1.0}, "accuracy must be positive"),
         ({"guess": [[1.0, 2.0, 3.0]] * 12}, r"need \(2,\), or \(K, 2\)"),
     ],
