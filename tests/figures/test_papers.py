@@ -20,7 +20,6 @@ from . import gallery
 from .seeing import alike, confusable, unlabelled, unreadable
 
 
-@pytest.mark.long
 @pytest.mark.long  # all together
 @pytest.mark.parametrize("name", gallery.GALLERY)
 def test_every_figure_in_a_column(name):
