@@ -5,6 +5,8 @@ orbit is a fixed point of that flow (`find_limit_cycle`), and its multipliers sa
 can fly hands-off.
 """
 
+from importlib import import_module
+from importlib.util import find_spec
 from typing import Any
 
 import lazy_loader
@@ -21,6 +23,8 @@ def __getattr__(name: str) -> Any:
         from importlib.metadata import version  # noqa: PLC0415 - slow to import
 
         return version("birdmb")
+    if not name.startswith("_") and find_spec(f"birdmb.{name}"):
+        return import_module(f"birdmb.{name}")
     from birdmb.errors import no_attribute  # noqa: PLC0415 - only mistakes need it
 
     raise no_attribute("birdmb", name, __all__)

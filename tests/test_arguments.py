@@ -2,6 +2,8 @@
 
 import inspect
 import math
+import subprocess
+import sys
 from types import SimpleNamespace
 from typing import get_type_hints
 
@@ -172,6 +174,15 @@ def test_nothing_of_a_bird_can_be_changed_and_the_sentence_says_how_to_vary(bird
             change()
         assert str(refused.value).endswith(f"bird.with_values({text}).")
         assert isinstance(refused.value, AttributeError)
+
+
+def test_rooms_are_imported_at_their_first_use():
+    """In a process of its own: here all of them are imported already."""
+    script = "import birdmb; birdmb.figures.paper; assert not hasattr(birdmb, 'figure')"
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
 
 
 def test_a_misspelt_name_is_answered_with_the_nearest(bird):
