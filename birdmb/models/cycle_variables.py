@@ -56,7 +56,9 @@ def outlines(model: BirdModel, times: FloatArray, states: FloatArray) -> dict[st
         if name != "bones":
             last = places.shape[2] - 1
             places = places[:, :, np.linspace(0, last, min(last + 1, _POINTS_OF_EDGE)).astype(int)]
-        dims = ("outline_time", "side", "joint_end" if name == "bones" else "edge_point", "axis")
+        # The edges have as many points as vertices where they are not rounded.
+        point = "joint_end" if name == "bones" else f"{name}_edge_point"
+        dims = ("outline_time", "side", point, "axis")
         about = "shoulder and ends of the bones" if name == "bones" else f"{name} edge"
         key = "outline_bones" if name == "bones" else f"outline_{name}_edge"
         found[key] = (dims, places, described("m", f"{about}, from the body's centre of mass"))

@@ -63,6 +63,13 @@ CYCLES = {
         birdmb.RigidModel(bird.with_values({"air.wake": "unsteady", "air.wake_points": 4}))
     ),
     "compliant": lambda _, bird: find_limit_cycle(birdmb.MultibodyModel(bird)),
+    "in space": lambda bird, _: find_limit_cycle(birdmb.RigidModel(bird, motion="free")),
+    "trimmed": lambda bird, _: birdmb.trim_flight(bird).cycle,
+    # Its edges are not rounded, and have as many points as vertices.
+    "published, on a mesh": lambda bird, _: find_limit_cycle(
+        birdmb.RigidModel(bird.with_values({"wing.discretisation": "published"})),
+        method="collocation",
+    ),
 }
 
 
@@ -89,6 +96,14 @@ def test_it_continues(cycle, stored):
     again = find_limit_cycle(found.model, found)
     assert same(again.points, find_limit_cycle(cycle.model, cycle).points)
     assert len(again.iterations) < len(cycle.iterations)
+
+
+def test_it_is_disturbed_and_drawn_as_before(cycle, stored):
+    found, gust = load_cycle(stored), birdmb.GaussianGust(vertical=1.0)
+    assert birdmb.gust_response(found, gust).identical(birdmb.gust_response(cycle, gust))
+    disturbed = [birdmb.perturbed_flight(each, periods=1) for each in (found, cycle)]
+    assert disturbed[0].identical(disturbed[1])
+    assert found.plot().axes
 
 
 def test_every_number_has_units_and_every_variable_a_description(stored):
