@@ -14,7 +14,9 @@ from birdmb.figures import plot_performance
 
 AMPLITUDE = "shoulder.flap.amplitude_deg"
 
-study = birdmb.parameter_study(birdmb.load_bird("ibis"), AMPLITUDE, np.arange(30.0, 61.0, 6.0))
+study = birdmb.parameter_study(
+    birdmb.load_bird("ibis"), AMPLITUDE, np.arange(30.0, 61.0, 6.0).tolist()
+)
 print("amplitude (deg)  speed (m/s)  climb rate (m/s)  path angle (deg)  power (W)")
 for value in study[AMPLITUDE].values:
     at = study.sel({AMPLITUDE: value})

@@ -6,6 +6,8 @@ The ibis with its tail spread, through upward gusts of three shapes, by the full
 linear one. See :doc:`/gusts`.
 """
 
+from collections.abc import Callable, Sequence
+
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -13,7 +15,7 @@ import birdmb
 
 bird = birdmb.load_bird("ibis_tail").with_values({"wing.discretisation": 8})
 cycle = birdmb.find_limit_cycle(birdmb.RigidModel(bird))
-gusts = {
+gusts: dict[str, Callable[[float], Sequence[float]]] = {
     "Gaussian": birdmb.GaussianGust(vertical=1.0),
     "1-cosine": birdmb.CosineGust(vertical=1.0),
     "step": birdmb.StepGust(vertical=1.0),

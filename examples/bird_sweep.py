@@ -19,7 +19,10 @@ bird = birdmb.load_bird("ibis").with_values({"wing.discretisation": 6})
 directory = TemporaryDirectory()
 store = Path(directory.name) / "study.db"
 run = partial(birdmb.sweep, bird, store=store)
-vary = {"shoulder.flap.stiffness": [60, 40, 30], "shoulder.flap.damping": [0.3, 0.2]}
+vary: dict[str, list[float]] = {
+    "shoulder.flap.stiffness": [60, 40, 30],
+    "shoulder.flap.damping": [0.3, 0.2],
+}
 level = birdmb.Trimming({"shoulder.flap.amplitude_deg": (35.0, 60.0)})
 
 # Threads keep this example in one process; by default a sweep takes a process for each core.

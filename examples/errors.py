@@ -45,7 +45,7 @@ said(ArgumentError, lambda: birdmb.find_limit_cycle(model, nodes=24))
 # A search that found nothing, and a flow that left what the model means anything for.
 
 said(ConvergenceError, lambda: birdmb.find_limit_cycle(model, max_iterations=1, segments=1))
-said(StateError, lambda: model.flow([float("nan"), 0.0, 0.0, 0.0], 0.0, model.period))
+said(StateError, lambda: model.flow([float("nan"), 0.0, 0.0, 0.0], 0.0, bird.period))
 
 # %%
 # Searches that end elsewhere than on an orbit are told apart.

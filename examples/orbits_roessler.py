@@ -6,6 +6,7 @@ The system of Rössler: an autonomous cycle, its period doubling, and the chaos 
 """
 
 import matplotlib.pyplot as plt
+import numpy as np
 
 from birdmb import OdeModel, continue_branch, find_limit_cycle, largest_lyapunov_exponent
 from birdmb.orbits import Steps
@@ -16,7 +17,7 @@ def roessler(c: float, a: float = 0.15, b: float = 0.2) -> OdeModel:
     return OdeModel(
         lambda _t, s: [-s[1] - s[2], s[0] + a * s[1], b + s[2] * (s[0] - c)],
         ("x", "y", "z"),
-        jacobian=lambda _t, s: [[0, -1, -1], [1, a, 0], [s[2], 0, s[0] - c]],
+        jacobian=lambda _t, s: np.array([[0, -1, -1], [1, a, 0], [s[2], 0, s[0] - c]]),
         guess=[0.0, -4.6, 0.05],
     )
 

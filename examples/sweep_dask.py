@@ -15,7 +15,10 @@ from dask.distributed import Client, LocalCluster
 import birdmb
 
 COMPLIANT = Path(__file__).parent.parent / "topologies" / "ibis_compliant_shoulder.toml"
-VARY = {"shoulder.flap.stiffness": [60, 50, 40, 30], "shoulder.flap.damping": [0.2, 0.1]}
+VARY: dict[str, list[float]] = {
+    "shoulder.flap.stiffness": [60, 50, 40, 30],
+    "shoulder.flap.damping": [0.2, 0.1],
+}
 
 
 def main(directory: Path, *, coarse: bool) -> None:
