@@ -185,7 +185,7 @@ class _KernelCache(NullCache):
 def _warn_once(folders: str) -> None:
     warnings.warn(
         f"The compiled kernels cannot be kept in {folders}: every process compiles them again, "
-        "which takes a minute or two; let NUMBA_CACHE_DIR name a folder that can be written.",
+        "which takes some minutes; let NUMBA_CACHE_DIR name a folder that can be written.",
         KernelCacheWarning,
         stacklevel=2,
     )

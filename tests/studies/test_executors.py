@@ -5,6 +5,7 @@ import shutil
 import subprocess
 import sys
 from importlib.util import find_spec
+from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
@@ -50,7 +51,9 @@ def test_dask_gives_the_same_bits(tmp_path, on_processes):
 
 @pytest.mark.long
 def test_mpi_gives_the_same_bits(tmp_path, on_processes):
-    mpiexec = shutil.which("mpiexec")
+    # Beside this Python, where packages of MPI put it, first: no directory of PATH need be its.
+    here = str(Path(sys.executable).parent)
+    mpiexec = shutil.which("mpiexec", path=here) or shutil.which("mpiexec")
     if mpiexec is None or find_spec("mpi4py") is None:
         pytest.skip("there is no MPI here, or no mpi4py")
     done, store = run(tmp_path, "mpi", mpiexec, "-n", "2")
