@@ -60,7 +60,7 @@ class BirdModel(Summarised, ABC):
         self.left_wing = self.wing if self.has_like_wings else wing_arrays(bird.side("left"))
         self.aero = aero_constants(bird)
         self._gust = gust
-        self.period: float | None = bird.period
+        self.period = bird.period
         self._steps_wanted = steps_per_beat
         numbers = bird.wing.resolved_discretisation
         self.discretisation = (numbers.elements, numbers.rounding, numbers.scheme == "one-step")
