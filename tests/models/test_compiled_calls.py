@@ -210,3 +210,25 @@ def test_handlers_of_the_main_thread_do_not_run_in_others(handled):
     thread.start()
     thread.join()
     assert inside == [handled]
+
+
+@pytest.mark.parametrize("call", [1, 7, 100])
+def test_ctrl_c_while_exudyn_integrates_is_a_keyboard_interrupt(bird, call):
+    """Nothing of Exudyn's comes out, nor is an error of its own told beside it."""
+    calls = 0
+
+    def gust(_):
+        nonlocal calls
+        calls += 1
+        if calls == call:
+            signal.raise_signal(signal.SIGINT)
+        return 0.0, 0.0
+
+    model = birdmb.MultibodyModel(bird, steps_per_beat=60, integrator="explicit", gust=gust)
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        with pytest.raises(KeyboardInterrupt) as interrupted:
+            model.flow(model.driven_state(), 0.0, 0.25)
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert (interrupted.value.__cause__, interrupted.value.__context__) == (None, None)
