@@ -129,6 +129,6 @@ def test_the_picture_says_what_is_drawn(coarse, quick):
     branch = bird_branch(coarse, AMPLITUDE, (42.0, 44.0), quick, steps=LONG)
     speed, moduli, attack = plot_bird_branch(branch).axes
     assert speed.get_ylabel() == "speed (m/s)"
-    assert moduli.get_ylabel() == "|Λ|"
-    assert attack.get_xlabel() == AMPLITUDE
+    assert moduli.get_ylabel() == r"$|\Lambda|$"
+    assert attack.get_xlabel() == r"$A_{\mathrm{flap}}$ (°)"
     assert [text.get_text() for text in speed.get_legend().get_texts()] == ["unstable"]
