@@ -127,8 +127,9 @@ def test_only_the_same_branch_is_resumed(coarse, quick, tmp_path):
 
 def test_the_picture_says_what_is_drawn(coarse, quick):
     branch = bird_branch(coarse, AMPLITUDE, (42.0, 44.0), quick, steps=LONG)
-    speed, moduli, attack = plot_bird_branch(branch).axes
+    figure = plot_bird_branch(branch)
+    speed, moduli, attack = figure.axes
     assert speed.get_ylabel() == "speed (m/s)"
     assert moduli.get_ylabel() == r"$|\Lambda|$"
     assert attack.get_xlabel() == r"$A_{\mathrm{flap}}$ (°)"
-    assert [text.get_text() for text in speed.get_legend().get_texts()] == ["unstable"]
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["unstable"]
