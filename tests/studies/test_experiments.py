@@ -164,7 +164,7 @@ def test_growing_lift_is_nothing_new_where_air_forgets():
 
 def test_the_example_draws_the_cases_that_are_asked_for(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(sys, "argv", ["validation", str(tmp_path), "e", "B"])
-    example = Path(__file__).parents[2] / "examples" / "validation.py"
+    example = Path(__file__).parents[2] / "examples" / "studies" / "validation.py"
     runpy.run_path(str(example), run_name="__main__")
     rows = capsys.readouterr().out.splitlines()
     assert "| CL_alpha | 4.638 | 4.814 |  | 4.814 |  |" in rows
