@@ -172,7 +172,7 @@ def test_trajectory_dataset_and_figure():
     assert data["trajectory"].sel(state="x").max() == pytest.approx(2.0086198608748, abs=1e-3)
     assert data.attrs["stability"] == "stable"
     figure = cycle.plot()
-    assert [axes.get_ylabel() for axes in figure.axes] == ["x", "v", "Im Λ"]
+    assert [axes.get_ylabel() for axes in figure.axes] == ["x", "v", r"Im $\Lambda$"]
 
 
 class Arctangent:

@@ -11,7 +11,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
 from birdmb.figures.labels import state_symbol
-from birdmb.figures.page import columns_of, is_narrow, label_x, label_y, new_figure, panels, title
+from birdmb.figures.page import columns_of, is_narrow, label_y, new_figure, panels, title
 from birdmb.figures.style import BLUE, LEVEL, ORANGE, SKY, VERMILION
 from birdmb.models import FlightCycle, GaussianGust
 from birdmb.quantities import DISSIPATORS
@@ -154,7 +154,8 @@ def _figure_6_4(out: Path, coarse: bool) -> None:
             _states(column, flight, label, colour)
         for axes in column if is_narrow() else column[:1]:
             title(axes, f"({row}), gust of {strength:g} m/s", pad=2 if is_narrow() else None)
-    label_x(grid, "time (s)")
+    for axes in grid.ravel() if is_narrow() else grid[-1]:  # each flight has a time of its own
+        axes.set_xlabel("time (s)")
     handles, labels = grid[0, -1].get_legend_handles_labels()
     figure.legend(
         handles, labels, loc="outside lower center", frameon=False, fontsize="small",
