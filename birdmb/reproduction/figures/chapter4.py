@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.figures.page import new_figure, panels, title
+from birdmb.figures.page import is_narrow, new_figure, panels, title
 from birdmb.figures.style import BLUE, GREEN, ORANGE, SERIES, VERMILION
 from birdmb.orbits import LimitCycle
 from birdmb.reproduction.appendices import ROESSLER, roessler_cycle
@@ -51,6 +52,12 @@ def _carried(cycle: LimitCycle, part: float) -> tuple[FloatArray, FloatArray]:
     return model.flow_jacobian(cycle.x0, 0.0, part * cycle.period)  # type: ignore[attr-defined]
 
 
+def _leave_room_for_labels(axes: Any) -> None:
+    """Draw axes in space smaller in a column, which their labels would be cut off by."""
+    if is_narrow():
+        axes.set_box_aspect(None, zoom=0.8)
+
+
 def sphere_along_the_flow(out: Path, coarse: bool) -> None:
     """Draw a sphere of disturbances, to first order, at some phases of Roessler's cycle."""
     cycle = roessler_cycle(ROESSLER[2])
@@ -66,6 +73,7 @@ def sphere_along_the_flow(out: Path, coarse: bool) -> None:
         axes.plot_surface(*surface, color=colour, alpha=0.5, linewidth=0)
         axes.text(*(centre + 0.6), f"{part:g} T", color=colour)
     axes.set(xlabel="x", ylabel="y", zlabel="z")
+    _leave_room_for_labels(axes)
     title(axes, "a sphere of disturbances carried along the flow")
     keep_figure(out, "figure 4.7", figure)
 
@@ -98,7 +106,8 @@ def sphere_after_a_period(out: Path, coarse: bool) -> None:
     towards = left[:, 2] + 0.5 * left[:, 1]
     azimuth = np.degrees(np.arctan2(towards[1], towards[0]))
     axes.view_init(np.degrees(np.arctan2(towards[2], np.hypot(*towards[:2]))), azimuth)
-    axes.legend(frameon=False, fontsize="small", loc="upper left")
+    _leave_room_for_labels(axes)
+    figure.legend(loc="outside lower center", frameon=False, fontsize="small", ncols=2)
     title(axes, "unit sphere (wires) and what a period makes of it (surface)")
     keep_figure(out, "figure 4.8", figure)
 

@@ -89,6 +89,9 @@ def _figure_6_3(out: Path, coarse: bool) -> None:
     for axes in grid[:, :-1].ravel():
         axes.set_xlabel("time (beats)")
         axes.sharey(grid[0, 0])
+    if is_narrow():  # room for the legends
+        low, high = grid[0, 0].get_ylim()
+        grid[0, 0].set_ylim(top=high + 0.7 * (high - low))
     for axes in grid[:, -1]:
         axes.set_xlabel("flight")
         axes.set_ylabel("power (W)")
