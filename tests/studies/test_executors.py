@@ -2,6 +2,7 @@
 
 import re
 import shutil
+import socket
 import subprocess
 import sys
 from importlib.util import find_spec
@@ -67,6 +68,11 @@ def test_mpi_gives_the_same_bits(tmp_path, on_processes):
         ("slurm", None, 'executor must be processes, dask, dask://HOST:PORT or mpi, not "slurm".'),
         ("mpi", 3, "executor: mpi has workers of its own; leave out their number (3)."),
         ("dask://127.0.0.1:1", 2, "dask://127.0.0.1:1 has workers of its own"),
+        ("dask://", None, 'as in dask://127.0.0.1:8786, not "dask://".'),
+        ("dask://here", None, 'not "dask://here".'),
+        ("dask://here:port", None, 'not "dask://here:port".'),
+        ("dask://here:99999", None, 'not "dask://here:99999".'),
+        ("dask://tcp://here:1", None, 'not "dask://tcp://here:1".'),
     ],
 )
 def test_wrong_names_are_one_sentence(name, workers, expected):
@@ -96,3 +102,17 @@ def test_a_scheduler_that_does_not_answer_is_named(monkeypatch):
         named_executor("dask://127.0.0.1:1"),
     ):
         pass
+
+
+def test_what_takes_connections_and_says_nothing_is_named(monkeypatch):
+    pytest.importorskip("dask.distributed")
+    monkeypatch.setattr("birdmb.studies.sweeps.executors._PATIENCE", 0.5)
+    with socket.socket() as silent:
+        silent.bind(("127.0.0.1", 0))
+        silent.listen()
+        address = f"127.0.0.1:{silent.getsockname()[1]}"
+        with (
+            pytest.raises(birdmb.ArgumentError, match=f"no Dask scheduler answers at {address} "),
+            named_executor(f"dask://{address}"),
+        ):
+            pass

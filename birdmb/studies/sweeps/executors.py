@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
+from urllib.parse import urlsplit
 
 from birdmb.errors import ArgumentError
 
@@ -29,8 +31,9 @@ def named_executor(name: str, workers: int | None = None) -> Iterator[Executor |
         workers: how many processes, for those that this computer starts; by default one a core.
 
     Raises:
-        ArgumentError: no such name, workers of a cluster that has its own, a package that is not
-            installed, a scheduler that does not answer, or an MPI job of one rank.
+        ArgumentError: no such name, an address without host or port, workers of a cluster that
+            has its own, a package that is not installed, a scheduler that does not answer, or an
+            MPI job of one rank.
     """
     if workers is not None and name not in {"processes", "dask"}:
         raise ArgumentError(
@@ -39,7 +42,7 @@ def named_executor(name: str, workers: int | None = None) -> Iterator[Executor |
     if name == "processes":
         yield None
     elif name == "dask" or name.startswith(_DASK):
-        with _on_dask(name.removeprefix(_DASK) if name != "dask" else None, workers) as executor:
+        with _on_dask(_address(name) if name != "dask" else None, workers) as executor:
             yield executor
     elif name == "mpi":
         with _on_mpi() as executor:
@@ -65,6 +68,7 @@ def _on_dask(address: str | None, workers: int | None) -> Iterator[Executor]:
             yield client.get_executor()
         return
     try:
+        asyncio.run(_greeted(f"tcp://{address}"))
         client = dask.Client(f"tcp://{address}", timeout=_PATIENCE)
     except (OSError, ValueError, TypeError) as error:
         raise ArgumentError(
@@ -74,6 +78,27 @@ def _on_dask(address: str | None, workers: int | None) -> Iterator[Executor]:
         ) from error
     with client:
         yield client.get_executor()
+
+
+def _address(name: str) -> str:
+    try:
+        parts = urlsplit(name)
+        complete = bool(parts.hostname and parts.port) and name == f"{_DASK}{parts.netloc}"
+    except ValueError:  # a port that is no number, or above 65535
+        complete = False
+    if not complete:
+        raise ArgumentError(
+            f'executor must name host and port, as in dask://127.0.0.1:8786, not "{name}".'
+        )
+    return parts.netloc
+
+
+async def _greeted(address: str) -> None:
+    """Connect once: Dask's client bounds the connection, but not the wait for a greeting."""
+    comm: Any = import_module("distributed.comm")
+    async with asyncio.timeout(_PATIENCE):
+        connection = await comm.connect(address, timeout=_PATIENCE)
+    connection.abort()
 
 
 @contextmanager
