@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,15 +11,13 @@ from typing import TYPE_CHECKING
 from birdmb.animation.colours import ColourName
 from birdmb.animation.scene import Scene, flight_scene, usual_beats, usual_frames
 from birdmb.animation.stage import Stage, ViewName
+from birdmb.arguments import checked
 from birdmb.errors import ArgumentError
 from birdmb.files import write_whole
+from birdmb.models import FlightCycle
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import plotly.graph_objects as go
-
-    from birdmb.models import FlightCycle
 
 _MOST_BIRDS = 2
 _ENDINGS = {
@@ -104,6 +103,7 @@ def require_ending(path: Path) -> str:
     return ending
 
 
+@checked
 def animate(
     cycles: Sequence[FlightCycle],
     *,

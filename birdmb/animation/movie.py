@@ -16,16 +16,26 @@ from matplotlib.colors import Normalize, to_rgb
 from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
+from birdmb.animation.palette import (
+    BODY,
+    BONE,
+    EDGE,
+    FEATHER,
+    FORCE,
+    GRID,
+    LAND,
+    TAIL,
+    TRACK,
+    VALUES,
+)
 from birdmb.animation.scene import Scene
-from birdmb.animation.stage import Stage
+from birdmb.animation.stage import Stage, multiples
 from birdmb.errors import OutputError
 from birdmb.figures.wing import View
 
-_COLOURS = "RdBu_r"
 _FRAMES_A_SECOND = 25
 _WIDTH, _HEIGHT, _DPI = 9.6, 5.4, 100  # inches, and their dots
-_SKY, _LAND, _GRID, _TRACK, _FORCE = "#e6eef6", "#dfe7da", "#bccab3", "#2f5d8a", "#e08a00"
-_BODY, _TAIL, _BONE, _EDGE, _FEATHER = "#7a6a58", "#a08d76", "#20242b", "#3a4250", "#5d6776"
+_SKY = "#e6eef6"
 # From behind, from the right and from above, as the page begins.
 _VIEW = View.along("oblique", (-0.74, -0.66, 0.62), (0.0, 0.0, 1.0))
 # Of the picture, in spans, where the camera flies along.
@@ -92,7 +102,7 @@ def _figure(stage: Stage) -> tuple[Figure, list[_Picture]]:
         figure.text(0.9 * (i + 0.5) / count, 0.98, words, ha="center", va="top", fontsize=9)
         pictures.append(_Picture(axes, stage, scene, norm))
     bar = figure.colorbar(
-        ScalarMappable(norm, _COLOURS), cax=figure.add_axes((0.915, 0.25, 0.014, 0.5))
+        ScalarMappable(norm, VALUES), cax=figure.add_axes((0.915, 0.25, 0.014, 0.5))
     )
     colour = stage.scenes[0].colour
     bar.set_label(f"{colour.label} ({colour.unit})", fontsize=9)
@@ -124,7 +134,7 @@ class _Picture:
         self._land(k)
         lines, values = (each[k] for each in self._wake)
         self._coloured(lines, values)
-        self._lines(scene.path[None], _TRACK, 1.0)
+        self._lines(scene.path[None], TRACK, 1.0)
         if scene.mode is not None:
             self._lines(scene.undisturbed[None], "0.45", 1.0, style="--")
         self._bird(k)
@@ -154,12 +164,12 @@ class _Picture:
         (x0, x1), (y0, y1), _ = self._box[k]
         height, step = self._stage.ground(self._scene), self._stage.grid
         corners = np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
-        self._fill([np.column_stack([corners, np.full(4, height)])], _LAND)
+        self._fill([np.column_stack([corners, np.full(4, height)])], LAND)
         lines = [
-            *([[x, y0, height], [x, y1, height]] for x in _marks(x0, x1, step)),
-            *([[x0, y, height], [x1, y, height]] for y in _marks(y0, y1, step)),
+            *([[x, y0, height], [x, y1, height]] for x in multiples(x0, x1, step)),
+            *([[x0, y, height], [x1, y, height]] for y in multiples(y0, y1, step)),
         ]
-        self._lines(np.array(lines), _GRID, 0.7)
+        self._lines(np.array(lines), GRID, 0.7)
         shadow = _panels(self._scene.chords[k])
         shadow[..., 2] = height
         self._fill(list(shadow), "#b4bfae")
@@ -168,7 +178,7 @@ class _Picture:
         """Draw wings, body and tail, what is far from the eye first."""
         scene = self._scene
         panels = list(_panels(scene.chords[k]))
-        shades = list(matplotlib.colormaps[_COLOURS](self._norm(scene.values[k].ravel())))
+        shades = list(matplotlib.colormaps[VALUES](self._norm(scene.values[k].ravel())))
         for faces, colour in self._solids(k):
             panels.extend(faces)
             shades.extend(_lit(faces, colour))
@@ -182,14 +192,14 @@ class _Picture:
                 zorder=3,
             )
         )
-        self._lines(scene.feathers[k].reshape(-1, 2, 3), _FEATHER, 0.7, zorder=3)
-        self._lines(scene.edges[k].reshape(-1, *scene.edges.shape[3:]), _EDGE, 0.8, zorder=3)
-        self._lines(scene.bones[k], _BONE, 1.9, zorder=3)
+        self._lines(scene.feathers[k].reshape(-1, 2, 3), FEATHER, 0.7, zorder=3)
+        self._lines(scene.edges[k].reshape(-1, *scene.edges.shape[3:]), EDGE, 0.8, zorder=3)
+        self._lines(scene.bones[k], BONE, 1.9, zorder=3)
 
     def _arrows(self, k: int) -> None:
         roots, tips = (_VIEW(each[k]) for each in (self._scene.arrow_points, self._tips))
         self._axes.quiver(
-            *roots.T, *(tips - roots).T, color=_FORCE, zorder=4, width=0.0035, **_TO_SCALE
+            *roots.T, *(tips - roots).T, color=FORCE, zorder=4, width=0.0035, **_TO_SCALE
         )
 
     def _coloured(self, lines: FloatArray, values: FloatArray) -> None:
@@ -200,7 +210,7 @@ class _Picture:
         known = np.isfinite(pairs).all(axis=(1, 2))
         self._axes.add_collection(
             LineCollection(
-                list(pairs[known]), array=means[known], norm=self._norm, cmap=_COLOURS, lw=0.8
+                list(pairs[known]), array=means[known], norm=self._norm, cmap=VALUES, lw=0.8
             )
         )
 
@@ -215,20 +225,15 @@ class _Picture:
     def _solids(self, k: int) -> list[tuple[FloatArray, str]]:
         """Triangles (T, 3, 3) m of body and tail, and their colours."""
         scene = self._scene
-        found = [(scene.body[k][scene.body_faces], _BODY)]
+        found = [(scene.body[k][scene.body_faces], BODY)]
         if scene.tail is not None:
-            found.append((scene.tail[k : k + 1], _TAIL))
+            found.append((scene.tail[k : k + 1], TAIL))
         return found
 
     def _fill(self, faces: list[FloatArray], colour: str) -> None:
         self._axes.add_collection(
             PolyCollection([_VIEW(face) for face in faces], color=colour, linewidths=0.0)
         )
-
-
-def _marks(first: float, last: float, step: float) -> FloatArray:
-    """Multiples of a step from `first` to `last`."""
-    return np.asarray(step * np.arange(np.ceil(first / step), np.floor(last / step) + 1))
 
 
 def _panels(chords: FloatArray) -> FloatArray:

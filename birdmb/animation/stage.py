@@ -122,6 +122,11 @@ class Stage:
         return self.ground(scene), top + _ABOVE * scene.span
 
 
+def multiples(first: float, last: float, step: float) -> FloatArray:
+    """Multiples of a step from `first` to `last`: where the lines on the ground are."""
+    return np.asarray(step * np.arange(np.ceil(first / step), np.floor(last / step) + 1))
+
+
 def _smooth(path: FloatArray, frames: int) -> FloatArray:
     """A path (F, 3) without what happens within a beat."""
     trend = path[0] + np.linspace(0.0, 1.0, len(path))[:, None] * (path[-1] - path[0])

@@ -10,14 +10,24 @@ from typing import Any
 import numpy as np
 
 from birdmb._typing import FloatArray, IntArray
+from birdmb.animation.palette import (
+    BODY,
+    BONE,
+    EDGE,
+    FEATHER,
+    FORCE,
+    GRID,
+    LAND,
+    TAIL,
+    TRACK,
+    VALUES,
+)
 from birdmb.animation.scene import Scene
-from birdmb.animation.stage import Stage
+from birdmb.animation.stage import Stage, multiples
 
 Attributes = dict[str, Any]
 
-COLOURS = "RdBu_r"
-_BONE, _EDGE, _FEATHER, _SECTION = "#20242b", "#3a4250", "#5d6776", "rgba(60,70,85,0.35)"
-_BODY, _TAIL, _FORCE, _TRACK = "#7a6a58", "#a08d76", "#e08a00", "#2f5d8a"
+_SECTION = "rgba(60,70,85,0.35)"
 _SMOOTH = {"ambient": 0.62, "diffuse": 0.55, "specular": 0.12, "roughness": 0.7, "fresnel": 0.1}
 _HEAD_LENGTH, _HEAD_WIDTH = 0.3, 0.09  # of an arrow
 _HEAD_SIDES = 6
@@ -68,8 +78,7 @@ def _land(stage: Stage, scene: Scene) -> list[Trace]:
     box, height, step = stage.box(scene), stage.ground(scene), stage.grid
     lifted = height + 5e-3 * scene.span
     (x0, y0), (x1, y1) = box[:, :2, 0].min(axis=0), box[:, :2, 1].max(axis=0)
-    xs = step * np.arange(np.ceil(x0 / step), np.floor(x1 / step) + 1)
-    ys = step * np.arange(np.ceil(y0 / step), np.floor(y1 / step) + 1)
+    xs, ys = multiples(x0, x1, step), multiples(y0, y1, step)
     ends = [np.array([[x, y0, lifted], [x, y1, lifted]]) for x in xs]
     ends += [np.array([[x0, y, lifted], [x1, y, lifted]]) for y in ys]
     corners = np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
@@ -82,9 +91,9 @@ def _land(stage: Stage, scene: Scene) -> list[Trace]:
         Trace(
             _mesh(plain, np.array([[0, 1, 2], [0, 2, 3]]))
             | quiet
-            | {"color": "#dfe7da", "lighting": {"ambient": 1.0, "diffuse": 0.0, "specular": 0.0}}
+            | {"color": LAND, "lighting": {"ambient": 1.0, "diffuse": 0.0, "specular": 0.0}}
         ),
-        Trace(_lines(ends) | quiet | {"line": {"color": "#bccab3", "width": 1.5}}),
+        Trace(_lines(ends) | quiet | {"line": {"color": GRID, "width": 1.5}}),
         Trace(
             {
                 "type": "scatter3d",
@@ -106,12 +115,12 @@ def _way(stage: Stage, scene: Scene) -> list[Trace]:
     found = [
         Trace(
             _lines([scene.path])
-            | {"line": {"color": _TRACK, "width": 3}, "hovertemplate": hover, "showlegend": False}
+            | {"line": {"color": TRACK, "width": 3}, "hovertemplate": hover, "showlegend": False}
         ),
         Trace(
             _lines([ground])
             | {
-                "line": {"color": _TRACK, "width": 2, "dash": "dot"},
+                "line": {"color": TRACK, "width": 2, "dash": "dot"},
                 "hovertemplate": "ground track: %{x:.2f} m<extra></extra>",
                 "showlegend": False,
             }
@@ -138,7 +147,7 @@ def _wings(stage: Stage, scene: Scene, *, bar: bool) -> Trace:
     fixed: Attributes = {
         "type": "mesh3d",
         **_faces(faces),
-        "colorscale": COLOURS,
+        "colorscale": VALUES,
         "cmin": -most,
         "cmax": most,
         "showscale": bar,
@@ -188,7 +197,7 @@ def _wake(stage: Stage, scene: Scene) -> Trace:
         "<extra></extra>",
         "showlegend": False,
     }
-    look: Attributes = {"colorscale": COLOURS, "cmin": -most, "cmax": most, "width": 3}
+    look: Attributes = {"colorscale": VALUES, "cmin": -most, "cmax": most, "width": 3}
 
     def at(k: int) -> Attributes:
         shades = np.concatenate([lines_end for row in values[k] for lines_end in (row, row[-1:])])
@@ -216,11 +225,11 @@ def _skeleton(scene: Scene) -> list[Trace]:
     quiet = lines | {"hoverinfo": "skip"}
     return [
         Trace(quiet | {"line": {"color": _SECTION, "width": 1}}, sections),
-        Trace(quiet | {"line": {"color": _EDGE, "width": 3}}, edges),
+        Trace(quiet | {"line": {"color": EDGE, "width": 3}}, edges),
         Trace(
             lines
             | {
-                "line": {"color": _FEATHER, "width": 3},
+                "line": {"color": FEATHER, "width": 3},
                 "hovertemplate": "feather or section<extra></extra>",
             },
             feathers,
@@ -229,8 +238,8 @@ def _skeleton(scene: Scene) -> list[Trace]:
             lines
             | {
                 "mode": "lines+markers",
-                "line": {"color": _BONE, "width": 7},
-                "marker": {"color": _BONE, "size": 3.5},
+                "line": {"color": BONE, "width": 7},
+                "marker": {"color": BONE, "size": 3.5},
                 "hovertemplate": "bones and joints<extra></extra>",
             },
             bones,
@@ -241,12 +250,12 @@ def _skeleton(scene: Scene) -> list[Trace]:
 def _trunk(scene: Scene) -> list[Trace]:
     solid: Attributes = {"type": "mesh3d", "lighting": _SMOOTH, "hoverinfo": "skip"}
     found = [
-        Trace(solid | _faces(scene.body_faces) | {"color": _BODY}, lambda k: _points(scene.body[k]))
+        Trace(solid | _faces(scene.body_faces) | {"color": BODY}, lambda k: _points(scene.body[k]))
     ]
     if scene.tail is not None:
         tail = scene.tail
         one = _faces(np.array([[0, 1, 2]]))
-        found.append(Trace(solid | one | {"color": _TAIL}, lambda k: _points(tail[k])))
+        found.append(Trace(solid | one | {"color": TAIL}, lambda k: _points(tail[k])))
     return found
 
 
@@ -264,7 +273,7 @@ def _forces(stage: Stage, scene: Scene) -> list[Trace]:
             {
                 "type": "scatter3d",
                 "mode": "lines",
-                "line": {"color": _FORCE, "width": 5},
+                "line": {"color": FORCE, "width": 5},
                 "hovertemplate": "force of the air here: %{text} N<extra></extra>",
                 "showlegend": False,
             },
@@ -274,7 +283,7 @@ def _forces(stage: Stage, scene: Scene) -> list[Trace]:
             {
                 "type": "mesh3d",
                 **_faces(faces),
-                "color": _FORCE,
+                "color": FORCE,
                 "lighting": _SMOOTH,
                 "hoverinfo": "skip",
             },

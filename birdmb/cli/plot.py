@@ -73,8 +73,8 @@ def _of_dataset(file: Path, quantities: Sequence[str], fixed: Mapping[str, Any])
     kind = kind_of(data)
     if kind is None:
         raise InputError(
-            f"{file} holds no limit cycle, branch or sweep of birdmb, or one of version 0.1.0 or "
-            f"older; compute it anew."
+            f"{file} holds no limit cycle, branch or sweep of birdmb; give the cycle.nc of `birdmb "
+            f"cycle --out`, the file of a branch or the store of a sweep."
         )
     if fixed and kind != "sweep":
         raise InputError(f"--at fixes a parameter of a sweep; {file} holds a {kind}.")

@@ -86,10 +86,11 @@ def run(wanted: Wanted, picture: Picture, *, out: Path | None, opened: bool) -> 
     typer.echo(f"wrote {written}{more}")
     if opened:
         webbrowser.open(written.resolve().as_uri())
-    for cycle in cycles:
-        if cycle.why_no_flight is not None:
-            progress.line(f"Not a flight: {cycle.why_no_flight}. What to do next: {TRIM}.")
-            raise typer.Exit(NO_CYCLE)
+    reasons = [cycle.why_no_flight for cycle in cycles if cycle.why_no_flight is not None]
+    for reason in reasons:
+        progress.line(f"Not a flight: {reason}. What to do next: {TRIM}.")
+    if reasons:
+        raise typer.Exit(NO_CYCLE)
 
 
 def _stem(flight: str) -> str:

@@ -59,9 +59,8 @@ class ShownFigure(Figure):
         return picture.getvalue()
 
     def _held_by_pyplot(self) -> bool:
-        if "matplotlib.pyplot" not in sys.modules:
-            return False
-        return any(_pyplot().figure(n) is self for n in _pyplot().get_fignums())
+        # pyplot.figure would make another figure the current one.
+        return any(manager.canvas.figure is self for manager in Gcf.get_all_fig_managers())
 
 
 def shown_figure(style: Style, **options: Any) -> Figure:

@@ -82,8 +82,8 @@ def require_cycle(path: Path, data: xr.Dataset) -> None:
         raise DataFileError(f"{path} holds a sweep, which keeps no whole cycles; draw it instead.")
     if kind is None:
         raise DataFileError(
-            f"{path} holds no limit cycle, or one of birdmb 0.1.0 or older without its bird; give "
-            f"the file of cycle.save or the cycle.nc of `birdmb cycle --out`."
+            f"{path} holds no limit cycle of birdmb; give the file of cycle.save or the cycle.nc "
+            f"of `birdmb cycle --out`."
         )
     form = data.attrs.get("format")
     if form != CYCLE_FORMAT:

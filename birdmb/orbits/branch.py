@@ -170,8 +170,8 @@ def load_branch(path: str | PathLike[str]) -> Branch:
         content = unsealed(file)
         if content is None:
             raise BranchFileError(
-                f"{path} holds no branch, only part of one, or one of birdmb 0.1.0 or older; "
-                f"remove it to begin anew, or give another file."
+                f"{path} holds no branch, or only part of one; remove it to begin anew, or give "
+                f"another file."
             )
         with xr.open_dataset(io.BytesIO(content), engine="h5netcdf") as stored:
             data = stored.load()

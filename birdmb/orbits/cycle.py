@@ -15,7 +15,7 @@ import xarray as xr
 
 from birdmb.datafiles import family_attributes
 from birdmb.files import netcdf_bytes, write_whole
-from birdmb.orbits.cycle_dataset import stored
+from birdmb.orbits.cycle_dataset import stored_search
 from birdmb.orbits.iteration import Iteration
 from birdmb.orbits.ode import Trajectory
 from birdmb.orbits.piecewise import PiecewisePath
@@ -121,7 +121,7 @@ class LimitCycle(FloquetResult):
 
         Further dimensions: segment (or node), iteration, and those of a mesh.
         """
-        variables, attributes = stored(
+        variables, attributes = stored_search(
             {each.name: getattr(self, each.name) for each in fields(self)}
         )
         return (

@@ -61,8 +61,8 @@ def described(units: str, about: str) -> dict[str, str]:
     return {"units": units, "long_name": about}
 
 
-def stored(fields: Mapping[str, Any]) -> tuple[dict[str, Variable], dict[str, Any]]:
-    """Variables and attributes, each by name, of the fields of a `LimitCycle`."""
+def stored_orbit(fields: Mapping[str, Any]) -> dict[str, Variable]:
+    """Variables, by name, of the arrays of a `FloquetResult`."""
     variables: dict[str, Variable] = {}
     for name, (dims, units, about) in _REAL.items():
         field = "multiplier_errors" if name == "multiplier_error" else name
@@ -75,7 +75,12 @@ def stored(fields: Mapping[str, Any]) -> tuple[dict[str, Variable], dict[str, An
             whole.imag,
             described(units, f"{about}, imaginary part"),
         )
-    variables |= _of_iterations(fields["iterations"])
+    return variables
+
+
+def stored_search(fields: Mapping[str, Any]) -> tuple[dict[str, Variable], dict[str, Any]]:
+    """Variables and attributes, each by name, of what a `LimitCycle` has besides these arrays."""
+    variables = _of_iterations(fields["iterations"])
     if fields["pieces"] is not None:
         variables["mesh"] = (
             ("mesh_point",),
@@ -99,7 +104,7 @@ def stored(fields: Mapping[str, Any]) -> tuple[dict[str, Variable], dict[str, An
 
 
 def restored(data: xr.Dataset) -> dict[str, Any]:
-    """The fields, but for the model, of a dataset with what `stored` returned.
+    """The fields, but for the model, of a dataset with all that the two above return.
 
     Raises `KeyError`, `ValueError` or `TypeError` where it does not hold them.
     """

@@ -12,7 +12,7 @@ import numpy.typing as npt
 import xarray as xr
 
 from birdmb._typing import ComplexArray, FloatArray
-from birdmb.orbits.cycle_dataset import BY_START, OF_STATE, described
+from birdmb.orbits.cycle_dataset import OF_STATE, described, stored_orbit
 from birdmb.orbits.multipliers import Stability, verdict
 from birdmb.orbits.ode import Trajectory
 from birdmb.orbits.periodicity import turns
@@ -244,41 +244,20 @@ class FloquetResult(Summarised):
     def to_xarray(self) -> xr.Dataset:
         """Return the orbit as a labelled dataset with real variables, fit for NetCDF.
 
-        Dimensions: state, state_at_start, multiplier, time. Complex values are split into
-        variables that end in `_real` and `_imag`.
+        Dimensions: state, state_at_start, multiplier, segment (or node), time. Complex values are
+        split into variables that end in `_real` and `_imag`.
         """
         path = self.trajectory()
         units = ("1",) * len(self.x0)
         if isinstance(self.model, HasStateUnits):
             units = tuple(self.model.state_units)
-        both = ("state", "multiplier")
         return xr.Dataset(
             {
-                "x0": ("state", self.x0, described(OF_STATE, "state at the start time")),
+                **stored_orbit({each.name: getattr(self, each.name) for each in fields(self)}),
                 "trajectory": (
                     ("time", "state"),
                     path.states,
                     described(OF_STATE, "states over the period"),
-                ),
-                "monodromy": (
-                    ("state", "state_at_start"),
-                    self.monodromy,
-                    described(BY_START, "state after a period by that before"),
-                ),
-                "multiplier_real": (
-                    "multiplier",
-                    self.multipliers.real,
-                    described("1", "real part"),
-                ),
-                "multiplier_imag": (
-                    "multiplier",
-                    self.multipliers.imag,
-                    described("1", "imaginary part"),
-                ),
-                "multiplier_error": (
-                    "multiplier",
-                    self.multiplier_errors,
-                    described("1", "error bound"),
                 ),
                 "exponent_real": (
                     "multiplier",
@@ -295,10 +274,8 @@ class FloquetResult(Summarised):
                     self.doubling_times,
                     described("s", "time in which the mode doubles or halves"),
                 ),
-                "mode_real": (both, self.modes.real, described(OF_STATE, "mode, real part")),
-                "mode_imag": (both, self.modes.imag, described(OF_STATE, "mode, imaginary part")),
                 "participation": (
-                    both,
+                    ("state", "multiplier"),
                     self.participation,
                     described("1", "share of each state in each mode"),
                 ),

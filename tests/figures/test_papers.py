@@ -14,6 +14,7 @@ from birdmb.figures import paper
 from birdmb.figures.labels import parameter_label, setting
 from birdmb.figures.page import inches
 from birdmb.figures.saving import formats_of, save_figure
+from birdmb.figures.showing import ShownFigure
 from birdmb.figures.style import SERIES, VERDICT_LINES
 
 from . import gallery
@@ -116,6 +117,18 @@ def test_a_notebook_shows_the_last_line_once(setup):
         env={"MPLBACKEND": "agg", "PYTHONPATH": ":".join(sys.path)},
     )  # fmt: skip
     assert done.stdout.splitlines()[-1] == "['image/png', 'text/plain'] 0"
+
+
+def test_showing_a_figure_leaves_the_current_one_of_pyplot():
+    plt = pytest.importorskip("matplotlib.pyplot")
+    first, second = plt.figure(), plt.figure()
+    try:
+        plt.figure(first.number)
+        assert ShownFigure()._repr_png_().startswith(b"\x89PNG")
+        assert plt.gcf() is first
+    finally:
+        plt.close(first)
+        plt.close(second)
 
 
 SCRIPT = """
