@@ -1,75 +1,73 @@
-"""The compiled kernels: one decorator, and a cache of machine code that a damaged file cannot hurt.
-
-Numba's own cache (`njit(cache=True)`) loads whatever its files hold, and truncated machine code
-ends the process; it does not see that a kernel called from another module has changed; and without
-a folder to write to it refuses to import. Here each compiled kernel is a file of its own, named
-after a digest of all that its machine code depends on, and read only if its checksum is right.
-Whatever cannot be read is compiled again; what cannot be kept is announced once.
-"""
+"""The decorator of compiled kernels: as numba's, but for the cache and for calls among them."""
 
 from __future__ import annotations
 
-import hashlib
-import inspect
-import pickle
-import platform
-import sys
-import warnings
-from collections.abc import Callable, Iterator
-from contextlib import suppress
-from functools import cache, cached_property
-from importlib.metadata import version
-from pathlib import Path
-from types import CodeType
+from collections.abc import Callable
 from typing import Any, TypeVar
 
-from numba import njit
-from numba.core import config as numba_config
-from numba.core import types
-from numba.core.caching import NullCache
-from numba.core.compiler import CompileResult
-from numba.core.dispatcher import Dispatcher
-from numba.core.serialize import dumps
-from numba.misc.appdirs import AppDirs
+from numba.core import event, sigutils
+from numba.core.registry import CPUDispatcher
+from numba.core.typing.templates import make_concrete_template
 
+from birdmb import _linked
 from birdmb._boxing import make_named_tuples_safe
-from birdmb.files import replace_file
+from birdmb._kernel_files import LEVEL, KernelFiles, config
 
 KernelT = TypeVar("KernelT", bound=Callable[..., Any])
-
-_SUFFIX = ".kernel"
-_LEVEL = 1
-_PACKAGE = Path(__file__).parent
-config: Any = numba_config  # sets its attributes when it is imported
-_DIGEST = hashlib.sha256
-_BOXING = "5"  # changes with `birdmb._boxing`, which machine code holds
-_VERSIONS = (
-    platform.python_version(),
-    *(version(p) for p in ("numba", "llvmlite", "numpy")),
-    _BOXING,
-)
+_Dispatcher: Any = CPUDispatcher  # whose types are those of one kind of overload
 
 make_named_tuples_safe()
 
 
-class KernelCacheWarning(UserWarning):
-    """Compiled kernels cannot be kept, so that the next process compiles them again."""
-
-
 def kernel(function: KernelT) -> KernelT:
     """A function compiled by numba at its first call, and kept for later processes."""
-    dispatcher = njit(function)
-    dispatcher._cache = _KernelCache(function)  # what `njit(cache=True)` sets
-    dispatcher._compiler = _LightCompiler(dispatcher._compiler)
-    return dispatcher
+    return _Kernel(function, targetoptions={"nopython": True})
+
+
+class _Kernel(_Dispatcher):
+    """Numba's dispatcher of a function, which has two kinds of overloads.
+
+    Those for Python are numba's own. Kernels that call this one get those of `birdmb._linked`.
+    """
+
+    def __init__(self, *arguments: Any, **options: Any) -> None:
+        super().__init__(*arguments, **options)
+        self._cache: KernelFiles = KernelFiles(self.py_func)  # where numba has its own
+        self._compiler: Any = _LightCompiler(self._compiler)
+        self._linked: dict[tuple[Any, ...], tuple[object, Any]] = {}
+
+    def get_call_template(
+        self, args: Any, kws: Any
+    ) -> tuple[type[Any], Any, tuple[Any, ...], dict[str, Any]]:
+        """Template of a call from a kernel, its signature, and the types of its arguments."""
+        pysig, arguments = self._compiler.fold_argument_types(args, kws)
+        arguments = tuple(arguments)
+        if arguments not in self._linked:
+            self._linked[arguments] = self._to_link(arguments)
+        name = self.py_func.__name__
+        signature = self._linked[arguments][1].signature
+        template = make_concrete_template(f"CallTemplate({name})", name, [signature])
+        return template, pysig, arguments, {}
+
+    def get_overload(self, sig: Any) -> object:
+        """What the code that a kernel calls by this signature is registered under."""
+        arguments, _ = sigutils.normalize_signature(sig)
+        return self._linked[tuple(arguments)][0]
+
+    def _to_link(self, arguments: tuple[Any, ...]) -> tuple[object, Any]:
+        result: Any = self._cache.load_linked(arguments, self.targetctx)
+        if result is None:
+            data = {"dispatcher": self, "args": arguments, "return_type": None}
+            with event.trigger_event("numba:compile", data), self._compiling_counter:
+                result = _linked.compiled(self, arguments)
+            self._cache.save_linked(arguments, result)
+        key = object()  # where numba has the function that Python calls
+        self.targetctx.insert_user_function(key, result.fndesc, [result.library])
+        return key, result
 
 
 class _LightCompiler:
-    """Numba's compiler of a function, with LLVM's optimisation turned down while it works.
-
-    Kernels call kernels, and each is optimised again with all that it calls: at numba's own level
-    that takes half as long again, and makes nothing faster.
-    """
+    """Numba's compiler of a function, with LLVM's optimisation turned down while it works."""
 
     def __init__(self, compiler: Any) -> None:
         self._compiler = compiler
@@ -78,165 +76,13 @@ class _LightCompiler:
         return getattr(self._compiler, name)
 
     def compile(self, *arguments: Any) -> Any:
-        """Result of numba's own method."""
+        """Result of numba's own method; what it calls finds its environment in it."""
         level = config.OPT
-        config.OPT = type(level)(min(_LEVEL, level))
+        config.OPT = type(level)(min(LEVEL, level))
         try:
-            return self._compiler.compile(*arguments)
+            result = self._compiler.compile(*arguments)
         finally:
             config.OPT = level
-
-
-def cache_folders() -> list[Path]:
-    """Folders that compiled kernels are read from, and written to, the first that can be written.
-
-    The one that the environment variable `NUMBA_CACHE_DIR` names if it is set, else the package's
-    own and the user's.
-    """
-    # Each installation has a folder of its own, or two would remove each other's kernels as stale.
-    name = f"birdmb-{_DIGEST(str(_PACKAGE).encode()).hexdigest()[:8]}"
-    if config.CACHE_DIR:
-        return [Path(config.CACHE_DIR) / name]
-    users = Path(AppDirs(name, appauthor=False).user_cache_dir)
-    # Without a home it is relative: a folder "~" wherever the process happens to be.
-    return [_PACKAGE / "__pycache__", *([users] if users.is_absolute() else [])]
-
-
-def any_cached() -> bool:
-    """Whether kernels were compiled before, by this version or another one."""
-    return any(any(folder.glob(f"*{_SUFFIX}")) for folder in cache_folders())
-
-
-class _KernelCache(NullCache):
-    """The compiled overloads of one kernel."""
-
-    def __init__(self, function: Callable[..., Any]) -> None:
-        self._function = function
-
-    @property
-    def cache_path(self) -> str:
-        """Folder that a compiled kernel is looked for first, as numba's statistics show it."""
-        return str(cache_folders()[0])
-
-    def load_overload(self, sig: object, target_context: Any) -> CompileResult | None:
-        """Compile result of a signature, `None` unless a sound file holds it."""
-        target_context.refresh()
-        key = self._key(sig, target_context.codegen())
-        for folder in cache_folders():
-            # Numba gives no list of what damaged or foreign content may raise.
-            with suppress(Exception):
-                name = self._file_name(key)
-                content = (folder / name).read_bytes()
-                size = _DIGEST().digest_size
-                if _DIGEST(content[size:]).digest() != content[:size]:
-                    continue
-                identity, payload = pickle.loads(content[size:])
-                if identity == (name, key):
-                    return CompileResult._rebuild(target_context, *payload)
-        return None
-
-    def save_overload(self, sig: object, data: Any) -> None:
-        """Keep a compile result in the first folder that can be written, or warn once."""
-        if data.library.has_dynamic_globals:  # addresses of this process
-            return
-        key = self._key(sig, data.codegen)
-        name = self._file_name(key)
-        payload = dumps(((name, key), data._reduce()))
-        content = _DIGEST(payload).digest() + payload
-        reasons = []
-        for folder in cache_folders():
-            try:
-                folder.mkdir(parents=True, exist_ok=True)
-                replace_file(folder / name, content)
-            except OSError as error:
-                reasons.append(f"{folder} ({(error.strerror or str(error)).lower()})")
-            else:
-                self._remove_stale(folder)
-                return
-        _warn_once(" nor ".join(reasons))
-
-    def _key(self, sig: object, codegen: Any) -> str:
-        """All that the machine code of a signature depends on, besides the source."""
-        options = (config.USING_SVML, min(_LEVEL, config.OPT), config.BOUNDSCHECK)
-        return repr((_described(sig), codegen.magic_tuple(), options))
-
-    def _file_name(self, key: str) -> str:
-        overload = _DIGEST(key.encode()).hexdigest()[:16]
-        return f"{self._stem}{self._fingerprint}.{overload}{_SUFFIX}"
-
-    @property
-    def _stem(self) -> str:
-        tag = sys.implementation.cache_tag
-        return f"{self._function.__module__}.{self._function.__qualname__}.{tag}."
-
-    @cached_property
-    def _fingerprint(self) -> str:
-        return _fingerprint(self._function)
-
-    def _remove_stale(self, folder: Path) -> None:
-        """Remove what was compiled from an older source or by other versions."""
-        for old in folder.glob(f"{self._stem}*{_SUFFIX}"):
-            if not old.name.startswith(f"{self._stem}{self._fingerprint}."):
-                with suppress(OSError):
-                    old.unlink()
-
-
-@cache
-def _warn_once(folders: str) -> None:
-    warnings.warn(
-        f"The compiled kernels cannot be kept in {folders}: every process compiles them again, "
-        "which takes some minutes; let NUMBA_CACHE_DIR name a folder that can be written.",
-        KernelCacheWarning,
-        stacklevel=2,
-    )
-
-
-def _described(kind: Any) -> str:
-    """A signature with the names of the fields of named tuples, which numba leaves out."""
-    if not isinstance(kind, tuple | types.BaseTuple):
-        return str(kind)
-    elements: Any = kind
-    inner = ", ".join(map(_described, elements))
-    named = getattr(kind, "instance_class", None)
-    return f"{named.__qualname__}{named._fields}({inner})" if named else f"({inner})"
-
-
-def _fingerprint(function: Callable[..., Any]) -> str:
-    """A digest of the byte code of a kernel and of the kernels and constants that it uses."""
-    parts = [repr(_VERSIONS)]
-    seen: set[Callable[..., Any]] = set()
-
-    def collect(function: Callable[..., Any]) -> None:
-        if function in seen:
-            return
-        seen.add(function)
-        parts.append(repr(function.__defaults__))
-        for code in _codes(function.__code__):
-            plain = [repr(c) for c in code.co_consts if not inspect.iscode(c)]
-            parts.append(repr((code.co_code, code.co_varnames, plain)))
-            for name in code.co_names:
-                value = function.__globals__.get(name)
-                if isinstance(value, Dispatcher):
-                    collect(value.py_func)
-                else:
-                    parts.append(f"{name} = {_constant(value)}")
-
-    collect(function)
-    return _DIGEST("\n".join(parts).encode()).hexdigest()[:16]
-
-
-def _codes(code: CodeType) -> Iterator[CodeType]:
-    """The code of a function, and of the functions within."""
-    yield code
-    for constant in code.co_consts:
-        if inspect.iscode(constant):
-            yield from _codes(constant)
-
-
-def _constant(value: object) -> str:
-    """A global as machine code contains it."""
-    if inspect.ismodule(value):
-        return value.__name__
-    if inspect.isclass(value) or inspect.isfunction(value):
-        return f"{value.__module__}.{value.__qualname__} {getattr(value, '_fields', '')}"
-    return repr(getattr(value, "tolist", lambda: value)())
+        for environment in result._find_referenced_environments():
+            result.codegen.set_env(environment.env_name, environment)
+        return result

@@ -13,7 +13,9 @@ ROOT = Path(__file__).parents[1]
 FOUNDATIONS = {
     *(
         "_boxing",
+        "_kernel_files",
         "_kernels",
+        "_linked",
         "_starting",
         "_typing",
         "datafiles",

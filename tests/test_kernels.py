@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 import birdmb
-from birdmb._kernels import KernelCacheWarning, _LightCompiler, cache_folders, config, kernel
+from birdmb._kernel_files import KernelCacheWarning, cache_folders, config
+from birdmb._kernels import _LightCompiler, kernel
 
 HANGS = 900  # s
 BASE = 10.0
@@ -34,6 +35,19 @@ called = kernel(inner)
 
 def added(x):
     return x + BASE
+
+
+def refusing(x):
+    if x < 0.0:
+        raise ValueError("negative", x)  # its arguments are made by Python code
+    return x
+
+
+def calling_twice(x):
+    return called(x) + called(x + 1.0) + refused(x)
+
+
+refused = kernel(refusing)
 
 
 @pytest.fixture
@@ -99,6 +113,45 @@ def test_a_change_in_a_kernel_that_is_called_is_seen(cache, monkeypatch):
     assert len(of_outer) == 1  # what is stale is removed
 
 
+def test_a_kernel_that_kernels_call_is_compiled_once_and_not_for_python(cache):
+    assert fresh(outer) == (8.0, True)
+    assert fresh(calling_twice) == (12.0, True)
+    assert called.signatures == []
+    names = [path.name for path in cache.iterdir()]
+    assert len(names) == len(set(names)) == 4
+    assert called(3.0) == 4.0  # for Python after all
+    assert len(called.signatures) == 1
+
+
+@pytest.mark.parametrize("damage", DAMAGES.values(), ids=DAMAGES)
+def test_code_for_callers_is_kept_and_damage_to_it_is_harmless(cache, monkeypatch, damage):
+    fresh(outer)
+    (path,) = (path for path in cache.iterdir() if ".inner." in path.name)
+    kept = path.read_bytes()
+
+    def with_a_callee_of_a_new_process():
+        monkeypatch.setitem(globals(), "called", kernel(inner))
+        return fresh(calling_twice)[0]
+
+    before = path.stat().st_mtime_ns
+    assert with_a_callee_of_a_new_process() == 12.0
+    assert (path.stat().st_mtime_ns, path.read_bytes()) == (before, kept)  # read
+    for caller in cache.glob("*.calling_twice.*"):
+        caller.unlink()
+    damage(path)
+    assert with_a_callee_of_a_new_process() == 12.0
+    assert len(path.read_bytes()) > 1000  # written again
+
+
+@pytest.mark.usefixtures("cache")
+def test_what_a_called_kernel_raises_reaches_python(monkeypatch):
+    monkeypatch.setitem(globals(), "refused", kernel(refusing))
+    for _ in "compiled", "read from its file":
+        with pytest.raises(ValueError, match="negative") as raised:
+            kernel(calling_twice)(-1.0)
+        assert raised.value.args == ("negative", -1.0)
+
+
 def test_a_change_in_a_constant_is_seen(cache, monkeypatch):
     assert fresh(added) == (13.0, True)
     monkeypatch.setitem(globals(), "BASE", 20.0)
@@ -118,7 +171,7 @@ def test_no_folder_to_write_to_is_one_warning(monkeypatch, tmp_path):
 
 def test_installation_that_cannot_be_written_is_still_read(monkeypatch, tmp_path):
     package, users = tmp_path / "package", tmp_path / "users"
-    monkeypatch.setattr("birdmb._kernels.cache_folders", lambda: [package, users])
+    monkeypatch.setattr("birdmb._kernel_files.cache_folders", lambda: [package, users])
     fresh(inner)
     (kept,) = package.iterdir()
     assert fresh(inner) == (4.0, False)
@@ -165,12 +218,16 @@ def test_all_kernels_are_kept_in_this_way():
         for path in package.rglob("*.py")
         if re.search(r"\bn?jit\b", path.read_text(encoding="utf-8"))
     }
-    assert others == {"_kernels.py"}
+    assert others == {"_kernel_files.py"}
 
 
 @pytest.mark.parametrize("fails", [False, True])
 def test_kernels_are_optimised_lightly_and_others_as_before(monkeypatch, fails):
     seen = []
+
+    class Result:
+        def _find_referenced_environments(self):
+            return []
 
     class Compiler:
         name = "numba's"
@@ -179,6 +236,7 @@ def test_kernels_are_optimised_lightly_and_others_as_before(monkeypatch, fails):
             seen.append((int(config.OPT), arguments))
             if fails:
                 raise ValueError
+            return Result()
 
     before = config.OPT
     monkeypatch.setattr(config, "OPT", type(before)(3))

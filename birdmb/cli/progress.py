@@ -12,7 +12,7 @@ from numba.core import event
 from rich.console import Console
 from rich.text import Text
 
-from birdmb._kernels import any_cached
+from birdmb._kernel_files import any_cached
 from birdmb.cli.interrupt import tidied
 from birdmb.cli.streams import only_results_on_stdout
 from birdmb.files import remove_drafts

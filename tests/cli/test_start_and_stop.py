@@ -14,7 +14,7 @@ from types import SimpleNamespace
 import pytest
 from rich.console import Console
 
-from birdmb._kernels import cache_folders
+from birdmb._kernel_files import cache_folders
 from birdmb.cli.progress import Progress, _Compilation
 
 from .conftest import COMPLIANT, HANGS, IBIS
