@@ -114,7 +114,7 @@ def _layout(stage: Stage) -> dict[str, Any]:
     return {
         "font": {"family": _FONT, "color": _INK, "size": 13},
         "paper_bgcolor": "rgba(0,0,0,0)",
-        "margin": {"l": 0, "r": 0, "t": 74, "b": 104},
+        "margin": {"l": 0, "r": 0, "t": 74, "b": 118},
         "uirevision": "kept",
         "modebar": {
             "bgcolor": "rgba(0,0,0,0)",
@@ -155,14 +155,14 @@ def _titles(stage: Stage) -> list[dict[str, Any]]:
 def _caption(stage: Stage) -> dict[str, Any]:
     text = (
         f"orange: force of the air, {stage.metres_per_newton:g} m per N · lines on the ground "
-        f"every {stage.grid:g} m · wake lines: where the trailing edge was in still air, in the "
-        "colour that the wing had there · the body's shape is indicative"
+        f"every {stage.grid:g} m · the body's shape is indicative<br>wake lines: where the "
+        "trailing edge was in still air, in the colour that the wing had there"
     )
     return {
         "text": text,
         "x": 0.5,
         "y": 0.0,
-        "yshift": -98,
+        "yshift": -112,
         "xref": "paper",
         "yref": "paper",
         "xanchor": "center",
