@@ -118,9 +118,10 @@ def trim(
             "kept. A --set wing.discretisation is for the search alone.",
         ),
     ] = None,
+    json: Json = False,
 ) -> None:
     """Trim the flight of a bird: to level flight, at a wanted speed, or to a climb rate."""
-    with reported():
+    with reported(as_json=json):
         from birdmb.cli.birds import requested_bird  # noqa: PLC0415 - slow to import
         from birdmb.cli.variations import requested_bounds  # noqa: PLC0415 - slow to import
 
@@ -138,6 +139,7 @@ def trim(
             speed,
             model=model.value,
             out=out,
+            as_json=json,
         )
 
 

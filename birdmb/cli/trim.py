@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import json
+import sys
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 import typer
@@ -10,9 +12,11 @@ import typer
 from birdmb.cli.birds import lasting, requested_bird
 from birdmb.cli.console import messages
 from birdmb.cli.models import model_class
+from birdmb.cli.outcome import ResultUnwrittenError
 from birdmb.cli.progress import Progress
-from birdmb.cli.results import taken_as_prescribed, verdict_sentence
-from birdmb.studies.trim import trim_flight
+from birdmb.cli.results import result_object, taken_as_prescribed, verdict_sentence
+from birdmb.errors import OutputError
+from birdmb.studies.trim import Trim, trim_flight
 from birdmb.studies.validity import assess_validity
 from birdmb.topology import Bird
 from birdmb.topology.shipped import topology_file
@@ -28,6 +32,7 @@ def run(
     *,
     model: str,
     out: Path | None,
+    as_json: bool,
 ) -> None:
     """Trim, and say to what, by which values, and how it flies then.
 
@@ -43,23 +48,23 @@ def run(
             speed=speed,
             model=model_class(model),
         )
-        cycle = found.cycle
-        warnings = assess_validity(cycle).warnings
-        held = taken_as_prescribed(cycle.model)
+        validity = assess_validity(found.cycle)
+        told: dict[str, object] = {
+            "trim": {"values": found.values, "residual": found.residual},
+            **result_object(found.cycle, validity, model),
+        }
+        held = taken_as_prescribed(found.cycle.model)
     if held:
         progress.line(
             f"The {model} model takes {', '.join(held)} as prescribed: springs and dampers are not "
             "used."
         )
-    for name, value in found.values.items():
-        typer.echo(f"{name} = {value:.6g}")
-    typer.echo(
-        f"speed {cycle.mean_speed:.4f} m/s, climb rate {cycle.mean_climb_rate:+.1e} m/s, power "
-        f"{cycle.power:.4f} W, cost of transport {cycle.cost_of_transport:.4f}"
-    )
-    typer.echo(verdict_sentence(cycle))
-    for warning in warnings:
-        typer.echo(f"outside the model's validity: {warning}")
+    if not as_json:
+        for line in _lines(found):
+            typer.echo(line)
+        for warning in validity.warnings:
+            typer.echo(f"outside the model's validity: {warning}")
+    written: list[Path] = []
     if out is not None:
         targets = f"climb rate {climb_rate:g} m/s"
         if speed is not None:
@@ -69,9 +74,30 @@ def run(
         about += [f"Set before: {text}." for text in kept]
         about += [f"Found with {text}, which is not kept." for text in passing]
         trimmed = requested_bird(topology, kept).with_values(found.values)
-        typer.echo(f"wrote {trimmed.save(out, like=topology_file(topology), about=about)}")
-        if passing:
-            typer.echo(f"  with its own discretisation, not the {passing[-1]} of this search")
+        try:
+            written = [trimmed.save(out, like=topology_file(topology), about=about)]
+        except OutputError as error:
+            raise ResultUnwrittenError(str(error), told) from error
+        if not as_json:
+            typer.echo(f"wrote {written[0]}")
+            if passing:
+                typer.echo(f"  with its own discretisation, not the {passing[-1]} of this search")
+    if as_json:
+        told["files"] = list(map(str, written))
+        json.dump(told, sys.stdout, allow_nan=False, indent=2)
+        sys.stdout.write("\n")
+
+
+def _lines(found: Trim) -> Iterator[str]:
+    """Values, speed, costs and verdict."""
+    cycle = found.cycle
+    for name, value in found.values.items():
+        yield f"{name} = {value:.6g}"
+    yield (
+        f"speed {cycle.mean_speed:.4f} m/s, climb rate {cycle.mean_climb_rate:+.1e} m/s, power "
+        f"{cycle.power:.4f} W, cost of transport {cycle.cost_of_transport:.4f}"
+    )
+    yield verdict_sentence(cycle)
 
 
 def _listed(values: Mapping[str, float]) -> str:

@@ -54,6 +54,27 @@ def test_trim_keeps_the_file_and_what_was_set_for_the_bird(run, tmp_path):
     assert birdmb.load_bird(out).wing.discretisation == "converged"
 
 
+def test_trim_as_json_has_values_flight_and_files(run, tmp_path):
+    out = tmp_path / "trimmed.toml"
+    set_to = "--set", "tail.opening_deg=20", *COARSE
+    arguments = "trim", TAIL, "--model", "rigid", "--speed", "13", *set_to, "--json"
+    done = run(*arguments, "--out", str(out))
+    assert done.exit_code == 0, done.stderr
+    found = json.loads(done.stdout)
+    assert found["trim"]["residual"] < 1e-5
+    bird = birdmb.load_bird(out)
+    assert len(found["trim"]["values"]) == 2
+    for name, value in found["trim"]["values"].items():
+        assert value == pytest.approx(bird.value(name), rel=1e-14)
+    assert found["mean_speed"] == pytest.approx(13.0, abs=1e-5)
+    assert found["files"] == [str(out)]
+    unwritten = run(*arguments, "--out", str(tmp_path / "trimmed.toml" / "in_a_file.toml"))
+    assert unwritten.exit_code != 0
+    lost = json.loads(unwritten.stdout)  # what was found is told nevertheless
+    assert lost["trim"] == found["trim"]
+    assert "in_a_file.toml" in lost["error"]
+
+
 def test_no_trim_is_a_sentence(run):
     done = run("trim", TAIL, "--model", "rigid", "--by", "forearm.roll.offset_deg=10:12", *COARSE)
     assert done.exit_code == 1
