@@ -170,7 +170,7 @@ _executable: Callable[..., CompileResult] = CompileResult._rebuild
 def _warn_once(folders: str) -> None:
     warnings.warn(
         f"The compiled kernels cannot be kept in {folders}: every process compiles them again, "
-        "which takes some minutes; let NUMBA_CACHE_DIR name a folder that can be written.",
+        "which takes a minute or two; let NUMBA_CACHE_DIR name a folder that can be written.",
         KernelCacheWarning,
         stacklevel=2,
     )

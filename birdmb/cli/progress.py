@@ -129,7 +129,7 @@ class _Compilation(event.Listener):
 def _announcement() -> str:
     """What to say before the first compilation."""
     if not any_cached():
-        return "Compiling the kernels, once per installation (some minutes) ..."
+        return "Compiling the kernels, once per installation (a minute or two) ..."
     return "Compiling kernels that are new or have changed since the last run ..."
 
 
