@@ -21,7 +21,7 @@ from birdmb.figures.labels import (
     quantity_label,
     setting,
 )
-from birdmb.figures.page import columns_of, new_figure, panels, title
+from birdmb.figures.page import legend_below, new_figure, panels, title
 from birdmb.figures.style import LEVEL, LINE, VERDICT_MARKERS
 from birdmb.quantities import BY_NAME
 from birdmb.studies.sweeps.errors import SweepError
@@ -80,11 +80,7 @@ def plot_sweep(study: xr.Dataset, quantity: str | None, at: Mapping[str, Any]) -
     title(figure, "\n".join([about, *fixed, *verdict_lines(plane)]))
     handles = _legend(plane)
     if handles:
-        beside = columns_of([handle.get_label() for handle in handles], 3)
-        figure.legend(
-            handles=handles, loc="outside lower center", ncols=beside, frameon=False,
-            fontsize="small",
-        )  # fmt: skip
+        legend_below(figure, handles)
     return figure
 
 
