@@ -12,10 +12,12 @@ from matplotlib.figure import Figure
 from birdmb._typing import FloatArray
 from birdmb.arguments import checked
 from birdmb.figures.labels import state_symbol
+from birdmb.figures.multipliers import rounded_up
 from birdmb.figures.page import label_x, legend_below, new_figure, panels, title
 from birdmb.figures.style import BLACK, BLUE, DRIVER, GREEN, LEVEL, LINE, SERIES, VERMILION
 from birdmb.text import in_figure
 
+_TINY = 1e-3  # of a multiplier, whose digits are its error's
 _PANELS = {"u": ("m/s", 1.0), "w": ("m/s", 1.0)} | {
     "q": ("°/s", np.degrees(1.0)),
     "theta": ("°", np.degrees(1.0)),
@@ -103,11 +105,14 @@ def _deviation(axes: Axes, data: xr.Dataset, scale: float) -> None:
         if float(np.abs(mode["mode_deviation"]).max()) < 0.02 * largest:
             continue
         real, imag = float(mode["multiplier_real"]), float(mode["multiplier_imag"])
-        label = f"mode Λ = {real:.3g}" + (f" ± {imag:.3g} i" if imag else "")
+        if (modulus := abs(complex(real, imag))) < _TINY:
+            label = f"mode |Λ| < {rounded_up(modulus)}"
+        else:
+            label = f"mode Λ = {real:.3g}" + (f" ± {imag:.3g} i" if imag else "")
         axes.plot(
             mode["time"],
             scale * mode["mode_deviation"],
             lw=0.9,
-            label=label.replace("-", "−"),
+            label=label if "$" in label else label.replace("-", "−"),
             **styles[i % len(styles)],
         )
