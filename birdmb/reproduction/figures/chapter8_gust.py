@@ -43,9 +43,10 @@ def _figure_8_7(out: Path, coarse: bool) -> None:
     for (label, cycle), style in zip(cycles.items(), SERIES, strict=False):
         time, increments = _increments(cycle)
         for axes, values in zip(rows[1:], increments, strict=True):
-            if np.isfinite(values).any():
+            known = bool(np.isfinite(values).any())
+            if known:
                 axes.plot(time, values, label=label, **style)
-                largest[axes].append(f"{np.abs(values).max():.3g}")
+            largest[axes].append(f"{np.abs(values).max():.3g}" if known else "none")
     time = np.linspace(0.0, time[-1], 200)
     rows[0].plot(time, [_GUST(float(t))[1] for t in time], "k")
     for axes, label in zip(
