@@ -42,7 +42,8 @@ def main() -> None:
     """Print the errors and draw them."""
     mpl.use("agg")
     figure, panels = plt.subplots(1, 2, figsize=(9.0, 3.6), sharey=True, layout="constrained")
-    for (name, kind, label, options), colour in zip(BIRDS, ("C0", "C3"), strict=True):
+    looks = ({"color": "C0"}, {"color": "C3", "mfc": "w"})
+    for (name, kind, label, options), look in zip(BIRDS, looks, strict=True):
         bird = birdmb.load_bird(ROOT / "topologies" / f"{name}.toml")
         exact = birdmb.find_limit_cycle(kind(bird), nodes=EXACT)
         print(f"{label}: |Lambda|max = {abs(exact.multipliers[0]):.9f}")
@@ -61,10 +62,8 @@ def main() -> None:
             print(f"  {steps:4d} steps: states {shot[-1][0]:.1e}, multiplier {shot[-1][1]:.1e}")
         for panel, numbers, found in ((panels[0], NODES, collocated), (panels[1], STEPS, shot)):
             of_states, of_multiplier = np.array(found).T
-            panel.semilogy(numbers, of_states, "o-", color=colour, label=f"states, {label}")
-            panel.semilogy(
-                numbers, of_multiplier, "s--", color=colour, label=f"$|\\Lambda|$max, {label}"
-            )
+            panel.semilogy(numbers, of_states, "o-", label=f"states, {label}", **look)
+            panel.semilogy(numbers, of_multiplier, "s--", label=f"|Λ|max, {label}", **look)
     panels[0].set(xlabel="nodes a beat", ylabel="error", title="collocation")
     panels[1].set(xlabel="integration steps a beat", title="shooting", xscale="log")
     panels[1].set_xticks(STEPS, [str(n) for n in STEPS])

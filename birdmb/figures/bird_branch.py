@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from birdmb.figures.labels import MODULUS, parameter_label
-from birdmb.figures.page import columns_of, new_figure, panels, title
+from birdmb.figures.page import legend_below, new_figure, panels, title
 from birdmb.figures.style import BIFURCATION_MARKERS, LEVEL
 from birdmb.figures.verdicts import THIN, draw_curve, verdict_handles
 from birdmb.orbits import Branch, BranchPoint
@@ -56,10 +56,7 @@ def plot_bird_branch(branch: Branch) -> Figure:
         rows[2].plot(found.parameter, _angle(found.point), marker, color="k")
         for axes in rows:
             axes.axvline(found.parameter, **LEVEL)
-    figure.legend(
-        handles=handles, loc="outside lower center", frameon=False, fontsize="small",
-        ncols=columns_of([handle.get_label() for handle in handles], 3),
-    )  # fmt: skip
+    legend_below(figure, handles)
     title(figure, in_figure(str(branch.settings.get("bird", ""))))
     rows[0].set_ylabel(BY_NAME["mean_speed"].axis_label)
     rows[1].set_ylabel(MODULUS)

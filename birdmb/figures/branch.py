@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from birdmb.figures.labels import MODULUS, as_shown, parameter_label, quantity_label
-from birdmb.figures.page import new_figure, panels
+from birdmb.figures.page import legend_below, new_figure, panels
 from birdmb.figures.style import BIFURCATION_MARKERS, LEVEL, VERDICT_MARKERS
 from birdmb.figures.verdicts import draw_curve, verdict_handles
 
@@ -47,7 +47,7 @@ def plot_branch(branch: Branch, quantity: str) -> Figure:
         )
         bottom.axvline(bifurcation.parameter, **LEVEL)
     top.set_ylabel(quantity_label(quantity))
-    top.legend(handles=verdict_handles(branch), frameon=False, fontsize="small")
+    legend_below(figure, verdict_handles(branch))
     bottom.set(xlabel=parameter_label(branch.parameter_name), ylabel=MODULUS)
     figure.align_ylabels([top, bottom])
     return figure
@@ -65,7 +65,7 @@ def plot_stability_boundary(boundary: StabilityBoundary) -> Figure:
             first = [b.parameter for _, b in found if b.kind == kind]
             axes.plot(first, second, marker, color="k", label=kind)
     if found:
-        axes.legend()
+        legend_below(figure)
     axes.set_xlabel(parameter_label(boundary.first_name))
     axes.set_ylabel(parameter_label(boundary.second_name))
     return figure

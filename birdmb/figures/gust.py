@@ -12,10 +12,12 @@ from matplotlib.figure import Figure
 from birdmb._typing import FloatArray
 from birdmb.arguments import checked
 from birdmb.figures.labels import state_symbol
-from birdmb.figures.page import columns_of, label_x, new_figure, panels, title
+from birdmb.figures.multipliers import rounded_up
+from birdmb.figures.page import label_x, legend_below, new_figure, panels, title
 from birdmb.figures.style import BLACK, BLUE, DRIVER, GREEN, LEVEL, LINE, SERIES, VERMILION
 from birdmb.text import in_figure
 
+_TINY = 1e-3  # of a multiplier, whose digits are its error's
 _PANELS = {"u": ("m/s", 1.0), "w": ("m/s", 1.0)} | {
     "q": ("°/s", np.degrees(1.0)),
     "theta": ("°", np.degrees(1.0)),
@@ -45,11 +47,7 @@ def plot_gust_response(data: xr.Dataset) -> Figure:
     for axes, (name, (unit, scale)) in zip(rows[1:].ravel(), _PANELS.items(), strict=True):
         _deviation(axes, data.sel(state=name), scale)
         axes.set_ylabel(f"Δ{state_symbol(name)} ({unit})")
-    handles, labels = rows[1, 0].get_legend_handles_labels()
-    figure.legend(
-        handles, labels, loc="outside lower center", frameon=False, fontsize="small",
-        ncols=columns_of(labels, 4),
-    )  # fmt: skip
+    legend_below(figure, rows[1, 0].get_legend_handles_labels()[0], most=4)
     for axes in rows.ravel():
         axes.axhline(0, **LEVEL)
         axes.spines[["top", "right"]].set_visible(False)
@@ -81,7 +79,7 @@ def plot_gust_states(data: xr.Dataset) -> Figure:
         axes.spines[["top", "right"]].set_visible(False)
         axes.set_xlim(time[0], time[-1])
     label_x(rows, "time (s)")
-    rows[0, 0].legend(frameon=False, fontsize="small")
+    legend_below(figure)
     figure.align_ylabels(rows)
     bird = in_figure(data.attrs["bird"])
     title(figure, f"{bird}: states in a gust (thin: within a beat; thick: mean over one)")
@@ -107,11 +105,14 @@ def _deviation(axes: Axes, data: xr.Dataset, scale: float) -> None:
         if float(np.abs(mode["mode_deviation"]).max()) < 0.02 * largest:
             continue
         real, imag = float(mode["multiplier_real"]), float(mode["multiplier_imag"])
-        label = f"mode Λ = {real:.3g}" + (f" ± {imag:.3g} i" if imag else "")
+        if (modulus := abs(complex(real, imag))) < _TINY:
+            label = f"mode |Λ| < {rounded_up(modulus)}"
+        else:
+            label = f"mode Λ = {real:.3g}" + (f" ± {imag:.3g} i" if imag else "")
         axes.plot(
             mode["time"],
             scale * mode["mode_deviation"],
             lw=0.9,
-            label=label.replace("-", "−"),
+            label=label if "$" in label else label.replace("-", "−"),
             **styles[i % len(styles)],
         )

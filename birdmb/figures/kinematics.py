@@ -5,12 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
 from birdmb.figures.labels import in_words
-from birdmb.figures.page import columns_of, is_narrow, new_figure, panels, title
+from birdmb.figures.page import is_narrow, legend_below, new_figure, panels, title
 from birdmb.figures.style import BLUE, DRIVER, GREEN, LINE, VERMILION
 from birdmb.kinematics import KinematicsFit
 from birdmb.text import in_figure
@@ -37,11 +36,11 @@ def plot_kinematics(fit: KinematicsFit) -> Figure:
     parts = figure.subfigures(len(groups), 1, squeeze=False, height_ratios=rows)[:, 0]
     for name, axes in zip(groups[0], _panels(parts[0], rows[0], len(groups[0])), strict=True):
         _draw_joint(axes, fit, name)
-    _legend(parts[0])
+    legend_below(parts[0])
     for name, axes in zip(points, _panels(parts[-1], rows[-1], len(points)), strict=False):
         _draw_marker(axes, fit, name)
     if points:
-        _legend(parts[-1])
+        legend_below(parts[-1])
     beats = f"{fit.beats} beats" if fit.beats != 1 else "1 beat"
     title(
         figure,
@@ -64,18 +63,6 @@ def _panels(figure: SubFigure, rows: int, count: int) -> list[Axes]:
             axes.tick_params(labelbottom=True)
     figure.align_ylabels()
     return all_panels[:count]
-
-
-def _legend(figure: SubFigure) -> None:
-    """One for all panels."""
-    named: dict[str, Artist] = {}
-    for axes in figure.axes:
-        handles, labels = axes.get_legend_handles_labels()
-        named |= {str(label): handle for label, handle in zip(labels, handles, strict=True)}
-    figure.legend(
-        [*named.values()], [*named], loc="outside upper right", frameon=False,
-        fontsize="small", ncols=columns_of([*named], 3),
-    )  # fmt: skip
 
 
 def _draw_joint(axes: Axes, fit: KinematicsFit, name: str) -> None:

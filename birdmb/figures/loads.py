@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
 from birdmb.figures.labels import in_words
-from birdmb.figures.page import columns_of, new_figure, parts, title
+from birdmb.figures.page import legend_below, new_figure, parts, title
 from birdmb.figures.style import (
     LEVEL,
     LINE,
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
 _LEVER = 0.1  # m, of the weight: a typical moment
 _NOTHING = 1e-6  # of a typical size
+_NOTE: dict[str, Any] = {"fontsize": "small", "pad": 2}
 
 
 def plot_loads_and_power(cycle: FlightCycle) -> Figure:
@@ -40,13 +41,14 @@ def plot_loads_and_power(cycle: FlightCycle) -> Figure:
     top, bottom = right.subplots(2, 1, sharex=True, height_ratios=(1, 1.5))
     draw_wing_power(top, cycle)
     draw_joint_powers(bottom, cycle)
+    legend_below(right, bottom.get_lines()[1:], most=2, about="mean over the beat")
     bottom.set_xlabel(beat_label(cycle))
     title(figure, f"{title_of(cycle)}: loads and power over a beat")
     return figure
 
 
-def draw_loads(rows: Sequence[Axes], cycle: FlightCycle) -> None:
-    """Draw F_x, -F_z and M_y (body axes, about G) into three axes."""
+def draw_loads(rows: Sequence[Axes], cycle: FlightCycle, *, dense: bool = False) -> None:
+    """Draw F_x, -F_z and M_y (body axes, about G) into three axes, `dense` ones half as wide."""
     beat = cycle.beat
     curves: Mapping[str, FloatArray] = {
         "$F_x$ (N)": beat.force[:, 0],
@@ -55,12 +57,16 @@ def draw_loads(rows: Sequence[Axes], cycle: FlightCycle) -> None:
     }
     model = cycle.model
     weight = model.mass * model.bird.gravity
-    rows[1].axhline(weight, color="0.35", ls=":", lw=1.2, label=f"weight {weight:.3g} N")
+    rows[1].axhline(weight, color="0.35", ls=":", lw=1.2)
     for axes, (name, values) in zip(rows, curves.items(), strict=True):
         beat_axis(axes, cycle)
         size = weight * _LEVER if "M_y" in name else weight
         _with_mean(axes, beat.times, values, name.partition("(")[2].rstrip(")"), size)
         axes.set_ylabel(name)
+    # Above the mean where there is no room beside it.
+    rows[1].set_title(
+        f"weight (dotted) {weight:.3g} N{chr(10) + ' ' if dense else ''}", loc="left", **_NOTE
+    )
 
 
 def draw_wing_power(axes: Axes, cycle: FlightCycle) -> None:
@@ -73,7 +79,7 @@ def draw_wing_power(axes: Axes, cycle: FlightCycle) -> None:
 
 
 def draw_joint_powers(axes: Axes, cycle: FlightCycle) -> None:
-    """Draw joint torque times joint rate, both wings together, with the means in the legend."""
+    """Draw joint torque times joint rate, both wings together, with the means as labels."""
     beat_axis(axes, cycle)
     axes.set_prop_cycle(SERIES)
     axes.axhline(0, **LEVEL)
@@ -85,15 +91,6 @@ def draw_joint_powers(axes: Axes, cycle: FlightCycle) -> None:
             label=f"{in_words(name)}  {mean:+.2f} W".replace("-", "−"),
         )
     axes.set_ylabel("joint power (W)")
-    axes.legend(
-        frameon=False,
-        fontsize="small",
-        loc="upper center",
-        bbox_to_anchor=(0.5, -0.18),
-        ncols=columns_of([*cycle.joint_powers], 2),
-        title="mean over the beat",
-        title_fontsize="small",
-    )
 
 
 def _with_mean(axes: Axes, times: FloatArray, values: FloatArray, unit: str, size: float) -> None:
@@ -104,7 +101,6 @@ def _with_mean(axes: Axes, times: FloatArray, values: FloatArray, unit: str, siz
         mean = 0.0
     axes.axhline(0, **LEVEL)
     axes.plot(times, values, color=LINE)
-    label = f"mean {mean:.3g} {unit}".replace("-", "−").strip()
-    axes.axhline(mean, color=MEAN, ls="--", lw=1.2, label=label)
+    axes.axhline(mean, color=MEAN, ls="--", lw=1.2)
+    axes.set_title(f"mean {mean:.3g} {unit}".replace("-", "−"), loc="right", color=MEAN, **_NOTE)
     show_no_round_off(axes, size)
-    axes.legend(frameon=False, fontsize="small", loc="best", handlelength=1.8, borderaxespad=0.2)

@@ -99,10 +99,10 @@ def _labels(cycle: FlightCycle) -> list[tuple[str, complex, bool, bool]]:
             below = not below
     if tiny.size:
         many = "" if tiny.size == 1 else f"{tiny.size} × "
-        labels.append((f"{many}|Λ| < {_rounded_up(float(tiny.max()))}", 0j, False, below))
+        labels.append((f"{many}|Λ| < {rounded_up(float(tiny.max()))}", 0j, False, below))
     return labels
 
 
-def _rounded_up(modulus: float) -> str:
-    """The next power of ten."""
+def rounded_up(modulus: float) -> str:
+    """The next power of ten, as text."""
     return f"$10^{{{int(np.floor(np.log10(max(modulus, 1e-16)))) + 1}}}$"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from matplotlib.figure import Figure
 
 from birdmb.figures.multipliers import draw_multipliers
-from birdmb.figures.page import new_figure, panels, parts
+from birdmb.figures.page import legend_below, new_figure, panels, parts
 from birdmb.figures.style import DRIVER, LINE
 from birdmb.orbits.problem import HasStateUnits
 from birdmb.text import in_figure
@@ -41,6 +41,6 @@ def plot_response(response: PerturbedResponse) -> Figure:
         axes.plot(response.times, response.orbit[:, i], color=DRIVER, ls="--", label="orbit")
         axes.plot(response.times, response.states[:, i], color=LINE, label="disturbed")
         axes.set_ylabel(in_figure(response.state_names[i]))
-    rows[0].legend(loc="upper right")
     rows[-1].set_xlabel("time (s)")
+    legend_below(figure)
     return figure

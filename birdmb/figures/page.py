@@ -11,6 +11,7 @@ from typing import Any
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
@@ -193,14 +194,51 @@ def wrapped(text: str, part: float = 1.0) -> str:
     return "\n".join("\n".join(line) for line in lines)
 
 
-def columns_of(entries: Sequence[object], most: int) -> int:
-    """Columns of a legend of these entries below a figure, as many as fit."""
-    width = _width.get()
-    if width is None:
-        return most
-    longest = max((len(str(entry)) for entry in entries), default=1)
-    each = (longest + 6) * _LETTER * 0.83 * mpl.rcParams["font.size"] / 72
-    return max(1, min(most, int(width / each)))
+def legend_below(
+    figure: Figure | SubFigure,
+    handles: Sequence[Artist] | None = None,
+    *,
+    most: int = 3,
+    about: str | None = None,
+) -> None:
+    """Write one legend for all panels below them, where it covers none of their lines.
+
+    Args:
+        figure: with the panels.
+        handles: what it explains; all that has a label if `None`, each label once.
+        most: columns, if so many fit beside one another.
+        about: title of the legend.
+    """
+    shown = _labelled(figure) if handles is None else handles
+    entries: dict[str, Artist] = {}
+    for handle in shown:
+        entries.setdefault(str(handle.get_label()), handle)
+    if not entries:
+        return
+    for columns in range(min(most, len(entries)), 0, -1):
+        legend = figure.legend(
+            [*entries.values()], [*entries], loc="outside lower center", frameon=False,
+            fontsize="small", title=about, title_fontsize="small", ncols=columns,
+        )  # fmt: skip
+        size = legend.get_window_extent()
+        if columns == 1 or size.width <= figure.bbox.width:
+            break
+        legend.remove()
+    if isinstance(figure, Figure):  # the panels keep their height, as far as the page is tall
+        tall, more = figure.get_figheight(), float(size.height) / figure.dpi
+        figure.set_figheight(max(tall, min(tall + more, _TALLEST)))
+
+
+def axes_in_space(figure: Figure) -> Any:
+    """Axes of three dimensions, whose labels have room beside them."""
+    axes: Any = figure.add_subplot(projection="3d")
+    # The layout does not count these labels.
+    axes.set_box_aspect(None, zoom=0.85)
+    return axes
+
+
+def _labelled(figure: Figure | SubFigure) -> list[Artist]:
+    return [handle for axes in figure.axes for handle in axes.get_legend_handles_labels()[0]]
 
 
 def _inches_wide(figure: Figure | SubFigure) -> float:

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from birdmb.figures.labels import IMAGINARY, MODULUS, REAL, parameter_label
-from birdmb.figures.page import label_x, new_figure, panels, title
+from birdmb.figures.page import label_x, legend_below, new_figure, panels, title
 from birdmb.figures.style import LEVEL, LINE, STABLE_COLOUR, UNSTABLE_COLOUR
 from birdmb.quantities import quantities
 from birdmb.text import in_figure
@@ -63,7 +63,7 @@ def plot_multiplier_locus(study: xr.Dataset) -> Figure:
         left.plot([], [], label=label, **_marker(marker, colour, colour))
     left.set(xlabel=_label(study), ylabel=MODULUS, ylim=(0, None))
     left.locator_params(axis="x", nbins=6)
-    left.legend(frameon=False, loc="best")
+    legend_below(figure)
     left.spines[["top", "right"]].set_visible(False)
     _draw_plane(right, values, over)
     figure.colorbar(right.collections[0], ax=right, label=_label(study), pad=0.02)

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure, SubFigure
 
 from birdmb._typing import FloatArray
 from birdmb.figures.labels import state_symbol
-from birdmb.figures.page import label_x, new_figure, panels, title
+from birdmb.figures.page import label_x, legend_below, new_figure, panels, title
 from birdmb.figures.style import (
     DRIVER,
     LINE,
@@ -42,12 +42,20 @@ def plot_states(cycle: FlightCycle) -> Figure:
     return figure
 
 
-def draw_states(figure: Figure | SubFigure, cycle: FlightCycle) -> None:
-    """Draw the states into a figure, in two columns."""
+def draw_states(figure: Figure | SubFigure, cycle: FlightCycle, *, dense: bool = False) -> None:
+    """Draw the states into a figure, in two columns.
+
+    Args:
+        figure: to draw into.
+        cycle: of the bird.
+        dense: keep the two columns on narrow paper, too; what the shade means is said elsewhere.
+    """
     units = cycle.model.state_units
     moving = cycle.model.motion_state_names
     names = [*_ORDER_OF_BODY, *(name for name in moving if name not in _ORDER_OF_BODY)]
-    axes = panels(figure, len(names) // 2, 2, sharex=True)
+    shape = len(names) // 2, 2
+    axes = figure.subplots(*shape, sharex=True) if dense else panels(figure, *shape, sharex=True)
+    driven = False
     for name, ax in zip(names, axes.ravel(), strict=True):
         at = cycle.state_names.index(name)
         unit = units[at]
@@ -58,10 +66,13 @@ def draw_states(figure: Figure | SubFigure, cycle: FlightCycle) -> None:
             ax.plot(cycle.beat.times, scale * driver, "--", color=DRIVER, lw=1.2, label="driver")
         ax.plot(cycle.beat.times, scale * cycle.beat.states[:, at], color=LINE, label="state")
         show_no_round_off(ax, scale * float(cycle.model.state_scale[at]))
-        ax.set_ylabel(f"{_label(name)} ({IN_DEGREES.get(unit, unit)})")
-        if driver is not None and not name.endswith(_RATE):
-            ax.legend(frameon=False, fontsize="small", loc="best", handlelength=1.8)
-    label_x(axes, beat_label(cycle))
+        label = _label(name)
+        between = "\n" if dense and "\n" in label else " "
+        ax.set_ylabel(f"{label}{between}({IN_DEGREES.get(unit, unit)})")
+        driven = driven or driver is not None
+    label_x(axes, "time (s)" if dense else beat_label(cycle))
+    if driven:
+        legend_below(figure)
     figure.align_ylabels()
 
 

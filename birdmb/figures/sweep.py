@@ -21,7 +21,7 @@ from birdmb.figures.labels import (
     quantity_label,
     setting,
 )
-from birdmb.figures.page import columns_of, new_figure, panels, title
+from birdmb.figures.page import legend_below, new_figure, panels, title
 from birdmb.figures.style import LEVEL, LINE, VERDICT_MARKERS
 from birdmb.quantities import BY_NAME
 from birdmb.studies.sweeps.errors import SweepError
@@ -80,11 +80,7 @@ def plot_sweep(study: xr.Dataset, quantity: str | None, at: Mapping[str, Any]) -
     title(figure, "\n".join([about, *fixed, *verdict_lines(plane)]))
     handles = _legend(plane)
     if handles:
-        beside = columns_of([handle.get_label() for handle in handles], 3)
-        figure.legend(
-            handles=handles, loc="outside lower center", ncols=beside, frameon=False,
-            fontsize="small",
-        )  # fmt: skip
+        legend_below(figure, handles)
     return figure
 
 
@@ -223,18 +219,21 @@ def _draw_time_constants(
     """Draw how fast disturbances grow in other colours than how fast they decay."""
     finite = np.isfinite(values)
     axes.set_title("time constant", fontsize="small")
-    for part, colours, label, foot in (
+    every = (
         (finite & (modulus > 1), _GROWTH, "growth", 0.53),
         (finite & (modulus <= 1), _DECAY, "decay", 0.0),
-    ):
-        if not part.any():
-            continue
+    )
+    met = [each for each in every if each[0].any()]
+    for part, colours, label, foot in met:
         shown = np.where(part, values, np.nan)
         low, high = np.nanmin(shown), np.nanmax(shown)
         norm = LogNorm(low, high) if high > _DECADE * low else Normalize(low, high)
         mesh = axes.pcolormesh(x, y, shown, shading="nearest", norm=norm, cmap=colours)
-        beside = axes.inset_axes((1.03, foot, 0.06, 0.47))
-        axes.figure.colorbar(mesh, cax=beside).set_label(f"{label} (s)", fontsize="small")
+        if len(met) == 1:
+            axes.figure.colorbar(mesh, ax=axes, label=f"{label} (s)", pad=0.02)
+        else:
+            beside = axes.inset_axes((1.03, foot, 0.06, 0.47))
+            axes.figure.colorbar(mesh, cax=beside).set_label(f"{label} (s)", fontsize="small")
 
 
 def _draw_jumps(

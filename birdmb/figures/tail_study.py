@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from birdmb._typing import FloatArray
 from birdmb.figures.labels import LARGEST_MODULUS, parameter_label, setting
-from birdmb.figures.page import is_narrow, label_x, label_y, new_figure, panels, title
+from birdmb.figures.page import is_narrow, label_x, label_y, legend_below, new_figure, panels, title
 from birdmb.figures.style import LEVEL, VERMILION, families
 from birdmb.studies.stability_opening import StabilityOpening
 from birdmb.studies.tail import OPENING, VALID, gait_parameters, pareto_front, within_limits
@@ -123,7 +123,7 @@ def plot_envelope(
             least = least_costs(data.sel({OPENING: [at[OPENING]]}), speeds.tolist(), limits=limits)
             axes.plot(speeds, least, lw=1.8, label=f"{opening:g}°", **style)
     axes.set(xlabel="speed of level flight (m/s)", ylabel="cost of transport")
-    axes.legend(title="tail opening", frameon=False)
+    legend_below(figure, about="tail opening", most=4)
     axes.spines[["top", "right"]].set_visible(False)
     title(axes, f"{in_figure(data.attrs['bird'])}: least cost at each speed (dots: all flights)")
     return figure
@@ -155,7 +155,7 @@ def plot_pareto(data: xr.Dataset, limits: Mapping[str, float] = VALID) -> Figure
         near.set_xlim(*_around(cost[front]))
         near.set_ylim(*_around(modulus[front]))
     figure.colorbar(points, ax=near, label=parameter_label(OPENING))
-    whole.legend(frameon=False)
+    legend_below(figure)
     title(near, "near the front")
     title(figure, f"{in_figure(data.attrs['bird'])}: what stability costs")
     return figure
@@ -180,7 +180,7 @@ def plot_stability_openings(found: Sequence[StabilityOpening], name: str) -> Fig
         axes.set_xlabel(parameter_label(found[0].across))
     axes.set_ylabel(f"tail opening at {LARGEST_MODULUS} = 1 (°)")
     if axes.get_legend_handles_labels()[0]:
-        axes.legend(frameon=False)
+        legend_below(figure)
     axes.spines[["top", "right"]].set_visible(False)
     title(axes, f"{in_figure(name)}: stable above the lines")
     return figure

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure, SubFigure
 from matplotlib.lines import Line2D
 
 from birdmb._typing import FloatArray
-from birdmb.figures.page import columns_of, is_narrow, new_figure, title
+from birdmb.figures.page import is_narrow, legend_below, new_figure, title
 from birdmb.figures.style import holds_still, stroke_speed, title_of
 from birdmb.wing.outline import WingOutline, wing_outline
 
@@ -97,11 +97,7 @@ def plot_wing_phases(cycle: FlightCycle) -> Figure:
     """Draw both wings at t = 0, T/4, T/2 and 3T/4 in three views of equal scale."""
     figure = new_figure(13, 6.2, columns=2)
     draw_wing_phases(figure, cycle, (OBLIQUE, BEHIND, TOP))
-    handles = _legend()
-    columns = columns_of([handle.get_label() for handle in handles], 5)
-    figure.legend(
-        handles=handles, loc="outside lower center", ncols=columns, frameon=False, fontsize="small"
-    )
+    legend_below(figure, _legend(), most=5)
     title(figure, f"{title_of(cycle)}: the wings in body axes")
     return figure
 
@@ -137,15 +133,20 @@ def draw_wing_phases(figure: Figure | SubFigure, cycle: FlightCycle, views: Sequ
         top -= _ROOM_FOR_TITLES * widest
     foot = top + _ROOM_FOR_TITLES * widest + 0.3 * gap
     _scale_bar(axes, -0.4 * width, foot, round_below(_LONGEST_BAR * widest))
-    _colour_bar(figure, axes, norm, np.array([pose.circulations for pose in poses]))
+    circulations = np.array([pose.circulations for pose in poses])
+    _colour_bar(figure, axes, norm, circulations, below=is_narrow() and len(views) > 1)
 
 
 def _colour_bar(
-    figure: Figure | SubFigure, axes: Axes, norm: CenteredNorm, circulations: FloatArray
+    figure: Figure | SubFigure,
+    axes: Axes,
+    norm: CenteredNorm,
+    circulations: FloatArray,
+    *,
+    below: bool,
 ) -> None:
     # Zero is white on any scale; what does not occur need not be shown.
     shown = min(float(circulations.min()), 0.0), max(float(circulations.max()), 0.0)
-    below = is_narrow()
     bar = figure.colorbar(
         ScalarMappable(norm, _COLOURS), ax=axes, label="circulation Γ (m²/s)", shrink=0.7,
         pad=0.01, location="bottom" if below else "right",

@@ -163,8 +163,8 @@ def picture(parts: np.ndarray, by_mode: Mapping[str, np.ndarray]) -> Figure:
     """Moduli of the slow lateral multipliers from gliding to flapping."""
     figure = Figure(figsize=(7, 4), layout="constrained")
     axes = figure.subplots()
-    for (name, values), colour in zip(by_mode.items(), ("C3", "C0"), strict=True):
-        axes.plot(parts, values, color=colour, label=name)
+    for (name, values), style in zip(by_mode.items(), ("C3-", "C0--"), strict=True):
+        axes.plot(parts, values, style, label=name)
     axes.axhline(1.0, color="0.6", lw=0.8)
     axes.set_xlabel("part of the wingbeat's amplitudes (0: gliding)")
     axes.set_ylabel("|Λ| per beat of 0.25 s")

@@ -58,7 +58,10 @@ def scherers_wing(_: list[Comparison]) -> Figure:
     at, markers = np.transpose(scherer.MARKERS)
     panels[0].errorbar(at, markers, scherer.ERROR_BAR, label="measured", **MEASURED)
     panels[0].set_ylabel("mean thrust coefficient")
-    panels[0].legend(frameon=False, fontsize="small")
+    entries = panels[0].get_legend_handles_labels()
+    figure.legend(
+        *entries, loc="outside lower center", frameon=False, fontsize="small", ncols=len(entries[0])
+    )
     return figure
 
 
@@ -128,12 +131,11 @@ def sections_and_starts(_: list[Comparison]) -> Figure:
 def sprung_plates(_: list[Comparison]) -> Figure:
     figure, panels = new_figure(11.0, 3)
     k = np.linspace(0.05, 0.8, 26)
-    for plate, colour in zip(
-        sprung_plate.PLATES, ("tab:blue", "tab:orange", "tab:green"), strict=True
-    ):
+    looks = (("tab:blue", "o"), ("tab:orange", "^"), ("tab:green", "s"))
+    for plate, (colour, mark) in zip(sprung_plate.PLATES, looks, strict=True):
         exact = [sprung_plate.exact_motion(plate, one) for one in k]
         lines = [(exact, "-")]
-        for model, style in ((QUASI_STEADY, "--"), (UNSTEADY, "o")):
+        for model, style in ((QUASI_STEADY, "--"), (UNSTEADY, mark)):
             every = k if model == QUASI_STEADY else k[::3]
             lines.append(
                 ([sprung_plate.computed_motion(plate, one, CHOICES[model]) for one in every], style)
@@ -145,7 +147,7 @@ def sprung_plates(_: list[Comparison]) -> Figure:
             values = (abs(pitch), np.degrees(np.angle(pitch)), [one.thrust for one in motions])
             for axes, each in zip(panels, values, strict=True):
                 axes.plot(at, each, style, color=colour, ms=4, lw=1.2,
-                          label=label if style == "-" else None)  # fmt: skip
+                          label=label if style == mark else None)  # fmt: skip
     for axes, label in zip(
         panels, ("pitch per half chord of heave (rad)", "its phase (deg)", "thrust coefficient"),
         strict=True,

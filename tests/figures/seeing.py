@@ -9,8 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure, FigureBase
+from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 from matplotlib.text import Text
+from matplotlib.transforms import Bbox
 
 from birdmb.quantities import BY_NAME
 
@@ -116,7 +118,7 @@ def unreadable(figure: Figure) -> list[str]:
     width, height = figure.bbox.size
     found = [f"{t.get_fontsize():.1f} pt: {t.get_text()}" for t in texts(figure) if _small(t)]
     boxes = []
-    for text in _fixed(figure):
+    for text in itertools.chain(_fixed(figure), _in_space(figure)):
         box = text.get_window_extent(renderer)
         if box.x0 < -1 or box.y0 < -1 or box.x1 > width + 1 or box.y1 > height + 1:
             found.append(f"beyond the edge: {text.get_text()!r}")
@@ -142,3 +144,38 @@ def _fixed(figure: Figure) -> Iterator[Text]:
         if axes.axison and axes.get_visible() and "z" not in axes._axis_names:
             candidates = (axes.title, axes.xaxis.label, axes.yaxis.label)
             yield from (each for each in candidates if each.get_text() and each.get_visible())
+
+
+def _in_space(figure: Figure) -> Iterator[Text]:
+    """Labels of axes of three dimensions."""
+    for axes in figure.axes:
+        if "z" in axes._axis_names:
+            labels = (getattr(axes, f"{name}axis").label for name in axes._axis_names)
+            yield from (each for each in labels if each.get_text())
+
+
+def covered(figure: Figure) -> list[str]:
+    """Legends that lie over lines or markers."""
+    FigureCanvasAgg(figure).draw()
+    found = []
+    for legend in figure.findobj(Legend):
+        box = legend.get_window_extent().padded(-1)
+        for axes in figure.axes:
+            seen = Bbox.intersection(box, axes.get_window_extent())
+            if seen is None or not axes.get_visible():
+                continue
+            names = [str(line.get_label()) for line in axes.get_lines() if _crosses(line, seen)]
+            if names:
+                entries = [text.get_text() for text in legend.get_texts()]
+                found.append(f"{entries} in {axes.get_ylabel()!r} over {names}")
+    return found
+
+
+def _crosses(line: Line2D, box: Bbox) -> bool:
+    if not line.get_visible() or not len(line.get_xdata()):
+        return False
+    path = line.get_transform().transform_path(line.get_path())
+    if line.get_linestyle() not in ("None", "") and path.intersects_bbox(box, filled=False):
+        return True
+    points = path.vertices[np.isfinite(path.vertices).all(axis=1)]
+    return bool(box.count_contains(points))

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import PolyCollection
+from matplotlib.text import Text
 
 import birdmb
 from birdmb import figures
@@ -102,8 +103,9 @@ def test_multipliers_are_labelled(cycle):
 
 def test_means_stand_in_the_loads(cycle):
     figure = figures.plot_loads_and_power(cycle)
-    texts = [t.get_text() for axes in figure.axes for t in axes.get_legend().get_texts()]
+    texts = [axes.get_title(loc="right") for axes in figure.axes]
     assert f"mean {cycle.power:.3g} W".replace("-", "−") in texts
+    texts = [text.get_text() for text in figure.findobj(Text)]
     for name, power in cycle.joint_powers.items():
         shown = name.replace(".", " ")
         assert f"{shown}  {power:+.2f} W".replace("-", "−") in texts

@@ -7,6 +7,7 @@ import matplotlib as mpl
 import matplotlib.image
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 import birdmb
@@ -18,7 +19,7 @@ from birdmb.figures.showing import ShownFigure
 from birdmb.figures.style import SERIES, VERDICT_LINES
 
 from . import gallery
-from .seeing import alike, confusable, unlabelled, unreadable
+from .seeing import alike, confusable, covered, unlabelled, unreadable
 
 
 @pytest.mark.long  # all together
@@ -30,6 +31,23 @@ def test_every_figure_in_a_column(name):
     assert unreadable(figure) == []  # drawn outside of the context
     assert unlabelled(figure) == []
     assert confusable(figure) == []
+    assert covered(figure) == []
+
+
+def test_the_check_of_legends_can_fail():
+    figure = Figure()
+    axes = figure.subplots()
+    axes.plot([0.0, 1.0], [0.0, 1.0], label="up")
+    axes.legend(loc="lower left")
+    assert len(covered(figure)) == 1
+    axes.legend(loc="upper left")
+    assert covered(figure) == []
+
+
+def test_all_about_a_cycle_fits_on_a_page():
+    with paper(width="90mm"):
+        figure = gallery.GALLERY["overview"]()
+    assert figure.get_figheight() < 9.7
 
 
 def test_the_check_of_lines_can_fail():

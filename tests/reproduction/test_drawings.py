@@ -6,13 +6,13 @@ from birdmb.figures.saving import save_figure
 from birdmb.reproduction.__main__ import main
 from birdmb.reproduction.figures import DRAWINGS, drawing
 
-from ..figures.seeing import confusable, unlabelled
+from ..figures.seeing import confusable, covered, unlabelled, unreadable
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("name", DRAWINGS)
 def test_drawing(name, tmp_path, monkeypatch):
-    """In a column: lines that all can tell apart, units on all axes."""
+    """In a column: lines that all can tell apart and no legend covers, units on all axes."""
     kept = []
 
     def save(figure, path):
@@ -27,6 +27,8 @@ def test_drawing(name, tmp_path, monkeypatch):
     for figure in kept:
         assert unlabelled(figure) == []
         assert confusable(figure) == []
+        assert covered(figure) == []
+        assert unreadable(figure) == []
     stem = name.replace(" ", "_").replace(".", "_")
     made = [path for path in (tmp_path / "new").iterdir() if path.stem.startswith(stem)]
     assert made

@@ -262,6 +262,7 @@ def test_maps_show_failures_and_quantities(inline):
         r"$|\Lambda|_\mathrm{max}$",
         "speed (m/s)",
         "climb rate (m/s)",
+        "growth (s)",
         "wing power (W)",
         "cost of transport",
     ]
@@ -305,4 +306,4 @@ def test_more_than_two_parameters_must_be_fixed_for_a_picture(tmp_path):
     study = sweep(coarse_bird(), grid, store=tmp_path / "s.db", executor=Inline(), model=QUICK)
     with pytest.raises(SweepError, match="fix all but two"):
         study.plot()
-    assert len(study.plot(at={"gait.frequency": 4.1}).axes) == 11
+    assert len(study.plot(at={"gait.frequency": 4.1}).axes) == 12

@@ -10,7 +10,15 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from birdmb._typing import FloatArray
-from birdmb.figures.page import label_x, label_y, new_figure, panels, title
+from birdmb.figures.page import (
+    axes_in_space,
+    label_x,
+    label_y,
+    legend_below,
+    new_figure,
+    panels,
+    title,
+)
 from birdmb.figures.style import BLUE, SERIES, VERMILION
 from birdmb.models import RigidModel
 from birdmb.orbits import largest_lyapunov_exponent
@@ -30,7 +38,7 @@ def roessler_portrait(number: int, out: Path, _coarse: bool) -> None:
     start = roessler(case.a, case.b, case.c).trajectory(beside, 0.0, times[-1], times)
     orbit = cycle.trajectory(times[:501]).states
     figure = new_figure(6.5, 5.6)
-    axes = figure.add_subplot(projection="3d")
+    axes = axes_in_space(figure)
     axes.plot(
         *start.states.T,
         color=VERMILION,
@@ -41,7 +49,7 @@ def roessler_portrait(number: int, out: Path, _coarse: bool) -> None:
     axes.plot(*orbit.T, color=BLUE, lw=2, label="limit cycle")
     axes.set(xlabel="x", ylabel="y", zlabel="z")
     axes.locator_params(nbins=4)
-    axes.legend(frameon=False, fontsize="small", loc="upper left")
+    legend_below(figure)
     others = np.delete(cycle.multipliers, cycle.trivial_index or 0)
     title(axes, f"{case.name}: T = {cycle.period:.6f} s, |Λ| = {np.abs(others).max():.6f}")
     keep_figure(out, f"figure A.{number}", figure)
@@ -98,7 +106,7 @@ def integrators(out: Path, coarse: bool) -> None:
         title(axes, about)
     label_x(row, "evaluations of the right-hand side in a beat")
     label_y(row, "error of the state after a beat (state scale)")
-    row[0, 0].legend(frameon=False, fontsize="small")
+    legend_below(figure, most=4)
     keep_figure(out, "figure C.1", figure)
 
 
@@ -129,7 +137,7 @@ def lyapunov(out: Path, coarse: bool) -> None:
         axes.plot(found.times, found.running, label=label.replace("-", "−"), **style)
     axes.axhline(0.0714, color="0.4", ls=":", lw=1, label="0.0714 (Sprott 2003)")
     axes.set(xlabel="time (s)", ylabel="largest Lyapunov exponent (1/s)", ylim=(-0.1, 0.15))
-    axes.legend(frameon=False, fontsize="small")
+    legend_below(figure)
     keep_figure(out, "figure E.1", figure)
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.figures.page import label_x, new_figure, panels, title
+from birdmb.figures.page import label_x, legend_below, new_figure, panels, title
 from birdmb.figures.style import DRIVER, LEVEL, LINE, SERIES
 from birdmb.models import RigidModel
 from birdmb.reproduction.figures.drawing import Drawing, keep_figure
@@ -43,7 +43,7 @@ def tip_path(out: Path, coarse: bool) -> None:
     for axes in (side, behind):
         axes.set_aspect("equal")
         axes.plot(0, 0, "k+")
-    behind.legend(frameon=False, fontsize="small", title="dots: downstroke", loc="center left")
+    legend_below(figure, about="dots: downstroke")
     keep_figure(out, "figure 3.9", figure)
 
 
@@ -82,7 +82,7 @@ def loads_held_and_free(out: Path, coarse: bool) -> None:
             axes.plot(beats, loads[mount][:, i] / (weight if i < 2 else 1.0), **style, label=mount)
         axes.axhline(1.0 if i == 1 else 0.0, **LEVEL)
         axes.set_ylabel(label)
-    rows[0].legend(frameon=False, fontsize="small", ncols=2)
+    legend_below(figure)
     rows[-1].set(xlabel="time (beats)", xlim=(0, beats[-1]))
     title(figure, "loads from u = 14 m/s, w = q = θ = 0 on, in world axes")
     keep_figure(out, "figure 3.11", figure)
@@ -99,7 +99,7 @@ def states_held_and_free(out: Path, coarse: bool) -> None:
         for mount, style in _STYLES.items():
             axes.plot(beats, scale * states[mount][:, i], **style, label=mount)
         axes.set_ylabel(label)
-    rows[0, 0].legend(frameon=False, fontsize="small")
+    legend_below(figure)
     rows[0, 0].set_xlim(0, beats[-1])
     label_x(rows, "time (beats)")
     figure.align_ylabels()

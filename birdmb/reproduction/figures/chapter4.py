@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from birdmb._typing import FloatArray
-from birdmb.figures.page import is_narrow, new_figure, panels, title
+from birdmb.figures.page import axes_in_space, legend_below, new_figure, panels, title
 from birdmb.figures.style import BLUE, GREEN, ORANGE, SERIES, VERMILION
 from birdmb.orbits import LimitCycle
 from birdmb.reproduction.appendices import ROESSLER, roessler_cycle
@@ -33,7 +32,7 @@ def poincare(out: Path, _coarse: bool) -> None:
         plane.plot(start, 0.0, "o", color=style["color"], ms=4)
         over_time.plot(path.times / PERIOD, np.hypot(*path.states.T), lw=1, **style)
     plane.set(xlabel="x", ylabel="y", aspect="equal")
-    figure.legend(frameon=False, fontsize="small", loc="outside lower center", ncols=2)
+    legend_below(figure, most=4)
     over_time.set(xlabel="time (periods)", ylabel="r", ylim=(0, None))
     keep_figure(out, "figure 4.4", figure)
 
@@ -52,18 +51,12 @@ def _carried(cycle: LimitCycle, part: float) -> tuple[FloatArray, FloatArray]:
     return model.flow_jacobian(cycle.x0, 0.0, part * cycle.period)  # type: ignore[attr-defined]
 
 
-def _leave_room_for_labels(axes: Any) -> None:
-    """Draw axes in space smaller in a column, which their labels would be cut off by."""
-    if is_narrow():
-        axes.set_box_aspect(None, zoom=0.8)
-
-
 def sphere_along_the_flow(out: Path, coarse: bool) -> None:
     """Draw a sphere of disturbances, to first order, at some phases of Roessler's cycle."""
     cycle = roessler_cycle(ROESSLER[2])
     path = cycle.trajectory().states
     figure = new_figure(7.5, 6.4)
-    axes = figure.add_subplot(projection="3d")
+    axes = axes_in_space(figure)
     axes.plot(*path.T, color="0.5", lw=1)
     ball = _sphere(9 if coarse else 25)
     colours = (BLUE, GREEN, ORANGE, VERMILION)
@@ -73,7 +66,6 @@ def sphere_along_the_flow(out: Path, coarse: bool) -> None:
         axes.plot_surface(*surface, color=colour, alpha=0.5, linewidth=0)
         axes.text(*(centre + 0.6), f"{part:g} T", color=colour)
     axes.set(xlabel="x", ylabel="y", zlabel="z")
-    _leave_room_for_labels(axes)
     title(axes, "a sphere of disturbances carried along the flow")
     keep_figure(out, "figure 4.7", figure)
 
@@ -85,7 +77,7 @@ def sphere_after_a_period(out: Path, coarse: bool) -> None:
     ball = _sphere(9 if coarse else 31)
     ellipsoid = np.einsum("ij,jpq->ipq", tangent, ball)
     figure = new_figure(7.5, 6.4)
-    axes = figure.add_subplot(projection="3d")
+    axes = axes_in_space(figure)
     axes.plot_wireframe(*ball, color=BLUE, lw=0.4, alpha=0.6)
     axes.plot_surface(*ellipsoid, color=VERMILION, alpha=0.35, linewidth=0)
     left, sizes, _ = np.linalg.svd(tangent)
@@ -98,16 +90,18 @@ def sphere_after_a_period(out: Path, coarse: bool) -> None:
         if abs(value) > 1e-3:
             vector = mode.real / np.linalg.norm(mode.real)
             ends = np.array([-vector, vector])
-            axes.plot(*ends.T, color="k", ls=look, lw=1, label=f"Λ = {value.real:.3f}")
+            axes.plot(
+                *ends.T, color="k", ls=look, lw=1, label=f"Λ = {value.real:.3f}".replace("-", "−")
+            )
     axes.set(xlabel="δx", ylabel="δy", zlabel="δz")
-    axes.set_aspect("equal")
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.locator_params(nbins=5)
     axes.set_zticks([])
     # Nearly along the axis that has all but vanished: the rest is a disc.
     towards = left[:, 2] + 0.5 * left[:, 1]
     azimuth = np.degrees(np.arctan2(towards[1], towards[0]))
     axes.view_init(np.degrees(np.arctan2(towards[2], np.hypot(*towards[:2]))), azimuth)
-    _leave_room_for_labels(axes)
-    figure.legend(loc="outside lower center", frameon=False, fontsize="small", ncols=2)
+    legend_below(figure, most=2)
     title(axes, "unit sphere (wires) and what a period makes of it (surface)")
     keep_figure(out, "figure 4.8", figure)
 

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from birdmb.figures.page import new_figure, panels, title
+from birdmb.figures.page import axes_in_space, legend_below, new_figure, panels, title
 from birdmb.figures.style import BLUE, LEVEL, SERIES, VERMILION
 from birdmb.models import FlightCycle, RigidModel
 from birdmb.orbits import find_limit_cycle
@@ -47,7 +47,7 @@ def convergence(out: Path, coarse: bool) -> None:
         label = "1 segment" if segments == 1 else f"{segments} segments"
         axes.semilogy(range(len(errors)), errors, marker=marker, ms=4, label=label)
     axes.set(xlabel="iteration", ylabel="closure error (state scale)")
-    axes.legend(frameon=False, fontsize="small")
+    legend_below(figure)
     title(axes, "from u = 14 m/s, w = q = θ = 0")
     keep_figure(out, "figure 5.3", figure)
 
@@ -70,7 +70,7 @@ def portrait(pair: tuple[str, str], name: str, out: Path, _coarse: bool) -> None
     figure = new_figure(5.4, 4.4)
     axes = figure.subplots()
     _portrait(axes, reference_cycle(), pair)
-    axes.legend(frameon=False, fontsize="small")
+    legend_below(figure)
     keep_figure(out, name, figure)
 
 
@@ -78,14 +78,13 @@ def portrait_in_space(out: Path, _coarse: bool) -> None:
     """Draw the limit cycle in the space of u, w and θ."""
     cycle = reference_cycle()
     figure = new_figure(6.2, 5.4)
-    axes = figure.add_subplot(projection="3d")
+    axes = axes_in_space(figure)
     path = _SCALES * cycle.trajectory().states
     axes.plot(path[:, 0], path[:, 1], path[:, 3], color=BLUE)
     axes.plot(*(_SCALES * cycle.x0)[[0, 1, 3]], "ks", ms=5, label="t = 0, mid-downstroke")
     axes.set(xlabel=_LABELS["u"], ylabel=_LABELS["w"], zlabel=_LABELS["theta"])
     axes.locator_params(nbins=4)
-    axes.set_box_aspect(None, zoom=0.85)  # labels lie outside of what the layout counts
-    axes.legend(frameon=False, fontsize="small")
+    legend_below(figure)
     keep_figure(out, "figure 5.6", figure)
 
 
@@ -104,7 +103,7 @@ def loads_over_weight(out: Path, _coarse: bool) -> None:
     axes.axhline(1.0, **LEVEL)
     axes.axhline(0.0, **LEVEL)
     axes.set(xlabel="time (beats)", ylabel="force / weight", xlim=(0, 1))
-    axes.legend(frameon=False, fontsize="small")
+    legend_below(figure)
     keep_figure(out, "figure 5.7", figure)
 
 
@@ -133,7 +132,7 @@ def disturbed(stable: bool, name: str, out: Path, coarse: bool) -> None:
     left, right = panels(figure, 1, 2)[0]
     _after_a_disturbance(left, flight, ("u", "w"))
     _after_a_disturbance(right, flight, ("theta", "q"))
-    left.legend(frameon=False, fontsize="small")
+    legend_below(figure)
     real, imag = float(flight["multiplier_real"]), float(flight["multiplier_imag"])
     value = f"{real:.3f}" + (f" ± {imag:.3f} i" if imag else "")
     title(figure, f"{periods} beats after a disturbance along Λ = {value}")

@@ -12,7 +12,16 @@ from matplotlib.axes import Axes
 
 from birdmb._typing import FloatArray
 from birdmb.figures.labels import IMAGINARY, LARGEST_MODULUS, MODULUS, REAL, parameter_label
-from birdmb.figures.page import is_narrow, label_x, label_y, new_figure, panels, parts, title
+from birdmb.figures.page import (
+    is_narrow,
+    label_x,
+    label_y,
+    legend_below,
+    new_figure,
+    panels,
+    parts,
+    title,
+)
 from birdmb.figures.style import LEVEL, LINE, SERIES, families
 from birdmb.models import RigidModel
 from birdmb.reproduction.chapter5 import margin_study
@@ -115,7 +124,7 @@ def margin(out: Path, coarse: bool) -> None:
         fontsize="small",
     )
     bottom.set(xlabel="longitudinal margin (%)", ylabel="speed (m/s)", ylim=(0, None))
-    bottom.legend(frameon=False, fontsize="small")
+    legend_below(figure)
     figure.align_ylabels()
     keep_figure(out, "figure 5.12", figure)
 
@@ -148,7 +157,7 @@ def jacobians(out: Path, coarse: bool) -> None:
         xlabel="step (state scale)",
         ylabel="largest gap from the\nvariational Jacobian (state scale)",
     )
-    gaps.legend(frameon=False, fontsize="small")
+    legend_below(figure)
     ways: Mapping[str, Callable[[], object]] = {
         "variational": lambda: model.flow_jacobian(cycle.x0, 0.0, period),
         "forward": lambda: by_differences(1e-6, False),
@@ -185,7 +194,7 @@ def angles_of_attack(out: Path, _coarse: bool) -> None:
         axes.set(title=about, xlim=(0, 1))
     label_x(row, "time (beats)")
     label_y(row, "angle of attack (°)")
-    row[0, 1].legend(frameon=False, fontsize="small", title="part of the half-span", ncols=2)
+    legend_below(figure, about="part of the half-span", most=5)
     keep_figure(out, "figure 5.14", figure)
 
 

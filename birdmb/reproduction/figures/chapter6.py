@@ -7,11 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
 from birdmb.figures.labels import state_symbol
-from birdmb.figures.page import columns_of, is_narrow, label_y, new_figure, panels, title
+from birdmb.figures.page import is_narrow, label_y, legend_below, new_figure, panels, title
 from birdmb.figures.style import BLUE, LEVEL, ORANGE, SKY, VERMILION
 from birdmb.models import FlightCycle, GaussianGust
 from birdmb.quantities import DISSIPATORS
@@ -82,46 +81,42 @@ def _figure_6_3(out: Path, coarse: bool) -> None:
     grid = panels(figure, 2, wide, width_ratios=(*[1] * len(TABLE_6_2), 0.9))
     for row, about, cycle, _ in _flights(coarse):
         axes = grid[list(_SETUPS).index(about), list(TABLE_6_2).index(row)]
-        _moments(axes, cycle)
-        title(axes, f"({row}) {about}")
+        means = _moments(axes, cycle)
+        between, size = ("; ", "small") if is_narrow() else ("\n", "medium")
+        title(axes, f"({row}) {about}{between}means {means}", fontsize=size)
         _cost(grid[list(_SETUPS).index(about), -1], row, cycle)
     label_y(grid[:, :-1], "moment (N m)")
     for axes in grid[:, :-1].ravel():
         axes.set_xlabel("time (beats)")
         axes.sharey(grid[0, 0])
-    if is_narrow():  # room for the legends
-        low, high = grid[0, 0].get_ylim()
-        grid[0, 0].set_ylim(top=high + 0.7 * (high - low))
     for axes in grid[:, -1]:
         axes.set_xlabel("flight")
         axes.set_ylabel("power (W)")
         axes.spines[["top", "right"]].set_visible(False)
         axes.set_ylim(0.0, 29.0)
         title(axes, "cost of transport, and its parts")
-    handles, labels = _first_of_each(grid[0, -1])
-    figure.legend(
-        handles, labels, loc="outside lower center", frameon=False, fontsize="small",
-        ncols=columns_of(labels, 5),
-    )  # fmt: skip
+    legend_below(figure, most=7)
     keep_figure(out, "figure 6.3", figure)
 
 
-def _moments(axes: Axes, cycle: FlightCycle) -> None:
+def _moments(axes: Axes, cycle: FlightCycle) -> str:
+    """Draw the moments of wing and tail, each with its mean; these as text."""
     beat, tail = cycle.beat, tail_moment(cycle)
     phase = beat.times / cycle.period
     wing = beat.moment[:, 1] - tail - beat.loads_along.stack.body_moment[:, 1]
+    means = []
     for values, label, colour, dashes in (
         (wing, "wing", BLUE, "-"),
         (tail, "tail", VERMILION, "-."),
     ):
         mean = round(float(values[:-1].mean()), 3)
-        text = f"{label}, mean {mean + 0.0:+.3f}".replace("-", "−")
-        axes.plot(phase, values, color=colour, ls=dashes, label=text)
+        means.append(f"{mean + 0.0:+.3f}".replace("-", "−"))
+        axes.plot(phase, values, color=colour, ls=dashes, label=f"moment of the {label}")
         axes.axhline(mean, color=colour, ls=(0, (1, 1)), lw=0.8)
     axes.axhline(0.0, **LEVEL)
-    axes.legend(frameon=False, fontsize="small", loc="upper right")
     axes.set_xlim(0.0, 1.0)
     axes.spines[["top", "right"]].set_visible(False)
+    return ", ".join(means)
 
 
 def _cost(axes: Axes, row: str, cycle: FlightCycle) -> None:
@@ -131,17 +126,12 @@ def _cost(axes: Axes, row: str, cycle: FlightCycle) -> None:
         power = cycle.dissipation[name]
         axes.bar(f"({row})", power, bottom=below, color=colour, label=name, width=0.6)
         below += power
-    axes.plot(f"({row})", TABLE_6_2[row][1][2], "k_", ms=28, mew=1.5, label="printed power")
+    printed = TABLE_6_2[row][1][2]
+    axes.plot(f"({row})", printed, "k_", ms=18, mew=1.5, label="printed power")
     axes.annotate(
-        f"{cycle.cost_of_transport:.4f}", (f"({row})", below + 0.6), ha="center", fontsize="small"
-    )
-
-
-def _first_of_each(axes: Axes) -> tuple[list[Artist], list[str]]:
-    """Handles and labels of a legend, each label once."""
-    handles, labels = axes.get_legend_handles_labels()
-    first = dict(zip(labels, handles, strict=True))
-    return list(first.values()), list(first)
+        f"{cycle.cost_of_transport:.4f}", (f"({row})", max(below, printed)), (0, 2),
+        textcoords="offset points", ha="center", fontsize="small",
+    )  # fmt: skip
 
 
 def _figure_6_4(out: Path, coarse: bool) -> None:
@@ -159,11 +149,7 @@ def _figure_6_4(out: Path, coarse: bool) -> None:
             title(axes, f"({row}), gust of {strength:g} m/s", pad=2 if is_narrow() else None)
     for axes in grid.ravel() if is_narrow() else grid[-1]:  # each flight has a time of its own
         axes.set_xlabel("time (s)")
-    handles, labels = grid[0, -1].get_legend_handles_labels()
-    figure.legend(
-        handles, labels, loc="outside lower center", frameon=False, fontsize="small",
-        ncols=columns_of(labels, 3),
-    )  # fmt: skip
+    legend_below(figure)
     for row_of_axes, name in zip(grid, _UNITS, strict=True):
         label_y(row_of_axes, f"{state_symbol(name)} ({_UNITS[name]})")
     keep_figure(out, "figure 6.4", figure)

@@ -15,7 +15,7 @@ from birdmb._typing import FloatArray
 from birdmb.errors import BirdmbError
 from birdmb.figures import plot_manifold, plot_pareto
 from birdmb.figures.labels import LARGEST_MODULUS
-from birdmb.figures.page import new_figure, panels
+from birdmb.figures.page import legend_below, new_figure, panels
 from birdmb.figures.style import LEVEL, families
 from birdmb.models import RigidModel
 from birdmb.reproduction.chapter6_flights import (
@@ -86,8 +86,8 @@ def _figure_6_5(out: Path, coarse: bool) -> None:
     by_modulus.axvline(1.0, **LEVEL)
     by_modulus.set(xlabel=LARGEST_MODULUS, ylabel="cost of transport", title="(b)")
     for axes in (by_speed, by_modulus):
-        axes.legend(title="tail opening", frameon=False, fontsize="small")
         axes.spines[["top", "right"]].set_visible(False)
+    legend_below(figure, about="tail opening", most=4)
     keep_figure(out, "figure 6.5", figure)
     keep_figure(out, "figure 6.5 pareto", plot_pareto(data, RULES))
     keep_figure(out, "figure 6.5 manifold", plot_manifold(data, RULES))

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from birdmb.figures.page import new_figure
+from birdmb.figures.page import legend_below, new_figure
 from birdmb.figures.style import SERIES
 from birdmb.models import MultibodyModel, RigidModel
 from birdmb.orbits import find_limit_cycle
@@ -77,8 +77,8 @@ def _masses(out: Path, coarse: bool) -> None:
         axes.loglog(masses, values, marker=marker, label=label)
     first = gaps[-1 if coarse else 3][0] / masses[-1 if coarse else 3]
     axes.loglog(masses, first * masses, color="0.7", zorder=0, ls=":", label="first order")
-    axes.set(xlabel="mass of a wing segment (kg)", ylabel="largest gap of multibody and rigid")
-    axes.legend(frameon=False, fontsize="small")
+    axes.set(xlabel="mass of a wing segment (kg)", ylabel="largest gap of multibody\nand rigid")
+    legend_below(figure)
     keep_figure(out, "figure 7.masses", figure)
 
 

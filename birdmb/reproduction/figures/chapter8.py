@@ -16,7 +16,7 @@ from matplotlib.patches import Circle
 
 from birdmb.errors import BirdmbError
 from birdmb.figures.labels import IMAGINARY, LARGEST_MODULUS, REAL, in_words, state_symbol
-from birdmb.figures.page import label_x, new_figure, panels, title
+from birdmb.figures.page import is_narrow, label_x, legend_below, new_figure, panels, title
 from birdmb.figures.style import BLUE, VERMILION, families
 from birdmb.models import FlightCycle
 from birdmb.reproduction.chapter8_birds import (
@@ -70,14 +70,15 @@ def _overlay(springs: Sequence[Spring], name: str, out: Path, coarse: bool) -> N
             for axes, state in zip(row, _STATES, strict=True):
                 _state(axes, cycle, state, style, _named(spring))
         title(row[0], about, loc="left")
-        row[0].legend(frameon=False, fontsize="small")
         row[-1].plot(*_driver(one), color=VERMILION, ls=(0, (10, 3)), lw=1, label="driver")
-        row[-1].legend(frameon=False, fontsize="small")
         for axes, state in zip(row, _STATES, strict=True):
-            axes.set_ylabel(f"{in_words(state_symbol(state))} ({_STATES[state]})")
+            words = in_words(state_symbol(state)).replace(" ", "\n" if is_narrow() else " ")
+            axes.set_ylabel(f"{words} ({_STATES[state]})")
             axes.spines[["top", "right"]].set_visible(False)
     rows[0, 0].set_xlim(0.0, 1.0)
     label_x(rows, "time (beats)")
+    figure.align_ylabels(rows)
+    legend_below(figure, about="k in N m/rad, C in N m s/rad", most=4)
     keep_figure(out, name, figure)
 
 
@@ -104,7 +105,7 @@ def _locus(springs: Sequence[Spring], label: str, name: str, out: Path, coarse: 
     """Draw the multipliers in the plane and the largest modulus over k or C."""
     chosen = springs[:: max(1, len(springs) // 3)] if coarse else springs
     which = 0 if label.startswith("k") else 1
-    figure = new_figure(14, 5, columns=len(_BIRDS) + 1)
+    figure = new_figure(14, 3.8 if is_narrow() else 5, columns=len(_BIRDS) + 1)
     planes = panels(figure, 1, len(_BIRDS) + 1)[0]
     colours = matplotlib.colormaps["viridis"]
     values = [spring[which] for spring in springs]
@@ -129,11 +130,16 @@ def _locus(springs: Sequence[Spring], label: str, name: str, out: Path, coarse: 
     }
     planes[-1].plot(*zip(*printed.items(), strict=True), "k*", ms=9, label="printed")
     planes[-1].set(xlabel=label, ylabel=LARGEST_MODULUS)
-    planes[-1].legend(frameon=False, fontsize="small")
+    legend_below(figure)
     for axes in planes:
         axes.spines[["top", "right"]].set_visible(False)
-    scale = ScalarMappable(norm, colours)
-    figure.colorbar(scale, ax=planes[:-1].tolist(), label=label, shrink=0.8)
+    bar = figure.colorbar(
+        ScalarMappable(norm, colours), ax=planes[:-1].tolist(), label=label, shrink=0.8,
+        format="{x:g}", location="bottom" if is_narrow() else "right",
+    )  # fmt: skip
+    if isinstance(norm, LogNorm):
+        bar.set_ticks([10.0, 20.0, 40.0, 80.0])
+        bar.minorticks_off()
     keep_figure(out, name, figure)
 
 

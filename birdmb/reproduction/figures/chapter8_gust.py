@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
+from matplotlib.axes import Axes
 
 from birdmb._typing import FloatArray
-from birdmb.figures.page import new_figure, panels
+from birdmb.figures.page import legend_below, new_figure, panels
 from birdmb.figures.style import LEVEL, SERIES
 from birdmb.models import BirdModel, FlightCycle, GaussianGust, MultibodyModel
 from birdmb.models.motion import heading_velocity
@@ -38,24 +39,28 @@ def _figure_8_7(out: Path, coarse: bool) -> None:
         cycles[f"k = {k:g}, C = {c:g}"] = sprung_flight(one, k, c)
     figure = new_figure(7.5, 8, rows=4)
     rows = panels(figure, 4, 1, sharex=True, height_ratios=(0.6, 1, 1, 1))[:, 0]
+    largest: dict[Axes, list[str]] = {axes: [] for axes in rows[1:]}
     for (label, cycle), style in zip(cycles.items(), SERIES, strict=False):
         time, increments = _increments(cycle)
         for axes, values in zip(rows[1:], increments, strict=True):
-            if np.isfinite(values).any():
-                text = f"{label}, largest {np.abs(values).max():.3g}"
-                axes.plot(time, values, label=text, **style)
+            known = bool(np.isfinite(values).any())
+            if known:
+                axes.plot(time, values, label=label, **style)
+            largest[axes].append(f"{np.abs(values).max():.3g}" if known else "none")
     time = np.linspace(0.0, time[-1], 200)
     rows[0].plot(time, [_GUST(float(t))[1] for t in time], "k")
     for axes, label in zip(
         rows,
-        ("gust, up (m/s)", "Δ lift / weight", "Δ angle of attack (°)", "Δ flap (°)"),
+        ("gust, up\n(m/s)", "Δ lift / weight", "Δ angle of\nattack (°)", "Δ flap (°)"),
         strict=True,
     ):
         axes.set_ylabel(label)
         axes.axhline(0.0, **LEVEL)
         axes.spines[["top", "right"]].set_visible(False)
-    for axes in rows[1:]:
-        axes.legend(frameon=False, fontsize="small")
+    for axes, numbers in largest.items():
+        text = f"largest: {', '.join(numbers)}"
+        axes.set_title(text, loc="right", fontsize="small", pad=2)
+    legend_below(figure, about="k in N m/rad, C in N m s/rad")
     rows[-1].set(xlabel="time (s)", xlim=(0.0, time[-1]))
     figure.align_ylabels(rows)
     keep_figure(out, "figure 8.7", figure)

@@ -137,7 +137,7 @@ def _inertia(out: Path, coarse: bool) -> None:
     title(
         figure,
         "inertia added to each segment about every axis; thick: within the model's validity, "
-        "dotted: beyond it, dashed: printed",
+        "dotted: beyond it, dashed: printed (k in N m/rad, C in N m s/rad)",
     )
     keep_figure(out, "figure 8.inertia", figure)
 

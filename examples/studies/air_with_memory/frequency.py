@@ -42,13 +42,15 @@ def frequency(report: Report) -> None:
     report.table("frequency", "Over the frequency of the beat", columns, rows)
     figure = Figure(figsize=(8, 3.6), layout="constrained")
     left, right = figure.subplots(1, 2)
-    for (name, lines), colour in zip(found.items(), ("C0", "C1"), strict=True):
+    for (name, lines), (colour, mark) in zip(
+        found.items(), (("C0", "o"), ("C1", "s")), strict=True
+    ):
         hertz, k, *_, without, remembered = lines.T
-        left.plot(hertz, without, "o-", color=colour, mfc="none", label=name)
-        left.plot(hertz, remembered, "D--", color=colour, ms=4, label=f"{name}, with memory")
-        right.plot(k, remembered - without, "o-", color=colour, label=name)
+        left.plot(hertz, without, f"{mark}-", color=colour, mfc="none", label=name)
+        left.plot(hertz, remembered, f"{mark}--", color=colour, ms=4, label=f"{name}, with memory")
+        right.plot(k, remembered - without, f"{mark}-", color=colour, label=name)
     left.axhline(0.0, color="0.6", lw=0.8)
-    left.set(xlabel="frequency of the beat, Hz", ylabel="growth of the least damped mode, 1/s")
-    right.set(xlabel="reduced frequency k = π f c/U", ylabel="change of it by memory, 1/s")
+    left.set(xlabel="frequency of the beat (Hz)", ylabel="growth of the least damped mode (1/s)")
+    right.set(xlabel="reduced frequency k = π f c/U", ylabel="change of it by memory (1/s)")
     left.legend(frameon=False)
     report.picture("frequency", figure)

@@ -34,7 +34,7 @@ def openings(report: Report) -> None:
     amplitudes = AMPLITUDES[-len(found) :]
     axes.plot(amplitudes, np.array(found)[:, 0], "o-", mfc="none", label="quasi-steady")
     axes.plot(amplitudes, np.array(found)[:, 1], "D--", ms=4, label="with memory")
-    axes.set(xlabel="amplitude of the flap, deg", ylabel="opening of the tail, deg")
+    axes.set(xlabel="amplitude of the flap (°)", ylabel="opening of the tail (°)")
     axes.set_title("Level flight is stable above the lines", fontsize=10)
     axes.legend(frameon=False)
     report.picture("openings", figure)

@@ -12,6 +12,7 @@ import birdmb
 from birdmb.orbits import BranchPoint, Steps
 
 SOFTEST, STIFFNESSES = 4.0, (4.3, 4.5, 4.7)  # N m/rad, without damping
+DASHES = ("-", "--", ":")
 
 
 def shoulder(report: Report) -> None:
@@ -41,15 +42,16 @@ def shoulder(report: Report) -> None:
             ]
         )  # fmt: skip
         at = branch.parameters
-        left.plot(at, [largest(p.multipliers) for p in branch.points], label=f"k = {stiffness:g}")
-        right.plot(at, [speed(point) for point in branch.points])
+        look = {"ls": DASHES[len(rows) - 1], "label": f"k = {stiffness:g} N m/rad"}
+        left.plot(at, [largest(p.multipliers) for p in branch.points], **look)
+        right.plot(at, [speed(point) for point in branch.points], **look)
     columns = (
         "k", "m/s", "|Λ|max", "verdict", "changes at", "followed to", "m/s", "|Λ|max", "verdict",
     )  # fmt: skip
     report.table("shoulder", "Undamped shoulders: from no memory to all of it", columns, rows)
     left.axhline(1.0, color="0.6", lw=0.8)
     left.set(xlabel="part of the memory", ylabel="|Λ|max")
-    right.set(xlabel="part of the memory", ylabel="speed, m/s")
+    right.set(xlabel="part of the memory", ylabel="speed (m/s)")
     left.legend(frameon=False)
     report.picture("shoulder", figure)
 
