@@ -86,7 +86,9 @@ class KernelFiles(NullCache):
 
     def load_overload(self, sig: object, target_context: Any) -> CompileResult | None:
         """Compile result for calls from Python, `None` unless a sound file holds it."""
-        return self._load(self._key(sig, target_context.codegen()), target_context, _executable)
+        return self._load(
+            self._key(sig, target_context.codegen()), target_context, CompileResult._rebuild
+        )
 
     def save_overload(self, sig: object, data: Any) -> None:
         """Keep a compile result for calls from Python in a folder, or warn once."""
@@ -161,9 +163,6 @@ class KernelFiles(NullCache):
             if not old.name.startswith(f"{self._stem}{self._fingerprint}."):
                 with suppress(OSError):
                     old.unlink()
-
-
-_executable: Callable[..., CompileResult] = CompileResult._rebuild
 
 
 @cache

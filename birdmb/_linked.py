@@ -61,13 +61,13 @@ def rebuilt(
     fndesc: Any,
     environment: Any,
     signature: Any,
-    objectmode: bool,
-    lifted: Any,
-    type_annotation: str,
+    _objectmode: bool,
+    _lifted: Any,
+    _annotation: str,
     reload_init: Iterable[Callable[[], object]],
     referenced_envs: Any,
 ) -> Any:
-    """Compile result from what `CompileResult._reduce` made of one."""
+    """Of what `CompileResult._reduce` made of a result, as much as callers need."""
     for initialise in reload_init:
         initialise()
     name, bitcode = library
@@ -75,15 +75,9 @@ def rebuilt(
     linked._final_module = binding.parse_bitcode(bitcode)
     linked._finalize_final_module()
     return compiler.compile_result(
-        target_context=target_context,
-        typing_context=target_context.typing_context,
         library=linked,
-        environment=environment,
         fndesc=fndesc,
-        type_annotation=type_annotation,
         signature=signature,
-        objectmode=objectmode,
-        lifted=lifted,
-        reload_init=reload_init,
-        referenced_envs=referenced_envs,
+        environment=environment,
+        referenced_envs=referenced_envs,  # numba finds those that somebody keeps
     )

@@ -41,7 +41,7 @@ def plot_loads_and_power(cycle: FlightCycle) -> Figure:
     top, bottom = right.subplots(2, 1, sharex=True, height_ratios=(1, 1.5))
     draw_wing_power(top, cycle)
     draw_joint_powers(bottom, cycle)
-    legend_below(right, bottom.get_lines()[1:], most=2, about="mean over the beat")
+    legend_below(right, most=2, about="mean over the beat")
     bottom.set_xlabel(beat_label(cycle))
     title(figure, f"{title_of(cycle)}: loads and power over a beat")
     return figure
@@ -63,10 +63,10 @@ def draw_loads(rows: Sequence[Axes], cycle: FlightCycle, *, dense: bool = False)
         size = weight * _LEVER if "M_y" in name else weight
         _with_mean(axes, beat.times, values, name.partition("(")[2].rstrip(")"), size)
         axes.set_ylabel(name)
-    # Above the mean where there is no room beside it.
-    rows[1].set_title(
-        f"weight (dotted) {weight:.3g} N{chr(10) + ' ' if dense else ''}", loc="left", **_NOTE
-    )
+    about_weight = f"weight (dotted) {weight:.3g} N"
+    if dense:  # no room beside the mean: a line above it
+        about_weight += "\n "
+    rows[1].set_title(about_weight, loc="left", **_NOTE)
 
 
 def draw_wing_power(axes: Axes, cycle: FlightCycle) -> None:

@@ -11,7 +11,7 @@ import birdmb
 
 def write(app: Sphinx, exception: Exception | None) -> None:
     """Write the page that the documentation frames."""
-    if exception is None:
+    if exception is None and app.builder.format == "html":
         ibis = birdmb.find_limit_cycle(birdmb.RigidModel(birdmb.load_bird("ibis")))
         ibis.animate().save(Path(app.outdir) / "_static" / "ibis.html")
 
