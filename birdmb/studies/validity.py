@@ -37,7 +37,7 @@ from birdmb.models.loads_kernel import StackedWing
 from birdmb.quantities import VALIDITIES
 from birdmb.studies.stalled_sections import StalledSection, stall_sentence, stalled_sections
 from birdmb.summary import Fact, Summarised, facts_of
-from birdmb.wing.outline import areas_across, wing_outline
+from birdmb.wing.outline import areas_across
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -197,15 +197,9 @@ class Validity(Summarised):
         Relative to the body, along its z axis (Taylor, Nudds & Thomas 2003); of the wing that moves
         further.
         """
-        model, beat = self.cycle.model, self.cycle.beat
-        angles, _ = model.motion_of_both(beat.times, beat.states)
-        discretisation = model.bird.wing.resolved_discretisation
-        sides = [0] if model.is_mirrored else [0, 1]
-        heights = [
-            [wing_outline(model.wing, at, discretisation).line[-1, 2] for at in angles[:, side]]
-            for side in sides
-        ]
-        amplitude = float(np.ptp(heights, axis=1).max())
+        model, stack = self.cycle.model, self.cycle.beat.loads_along.stack
+        wings = [stack.right] if model.is_mirrored else [stack.right, stack.left]
+        amplitude = max(float(np.ptp(wing.node[:, -1, 2])) for wing in wings)
         return model.bird.gait.frequency * amplitude / self.cycle.mean_speed
 
     @property

@@ -17,7 +17,7 @@ from birdmb.wing.chain import joint_chain
 from birdmb.wing.edges import feather_ends, leading_edge, section_ends, wing_edges
 from birdmb.wing.line import orthogonal_line
 from birdmb.wing.one_step import one_step_line
-from birdmb.wing.rounded import point, rounded_polyline
+from birdmb.wing.rounded import points, rounded_polyline
 
 _POINTS_ALONG_AN_EDGE = 200
 
@@ -168,11 +168,8 @@ def _chords(
 
 
 def _rounded(vertices: FloatArray, rounding: float) -> FloatArray:
-    edge = rounded_polyline(vertices, rounding)
-    points = np.empty((_POINTS_ALONG_AN_EDGE, 3))
-    for s, out in zip(np.linspace(0.0, 1.0, len(points)), points, strict=True):
-        point(edge, s, out)
-    return cast(FloatArray, points)
+    parameters = np.linspace(0.0, 1.0, _POINTS_ALONG_AN_EDGE)
+    return cast(FloatArray, points(rounded_polyline(vertices, rounding), parameters))
 
 
 def span_and_area(bird: Bird) -> tuple[float, float]:
