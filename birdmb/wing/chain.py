@@ -33,28 +33,41 @@ def joint_chain(wing: WingArrays | JointArrays, angles: Array) -> Chain:
     """Place joints and bones at `angles` (J,) rad, real or complex; more are not read."""
     n, bones = wing.segment.size, wing.bone_length.size
     axis = np.zeros((n, 3), angles.dtype)
-    frame = np.zeros((n + 1, 3, 3), angles.dtype)
+    frame = np.empty((n + 1, 3, 3), angles.dtype)
     origin = np.zeros((bones + 1, 3), angles.dtype)
-    rotation = np.zeros((bones, 3, 3), angles.dtype)
-    root_rotation = np.zeros((bones, 3, 3), angles.dtype)
+    rotation = np.empty((bones, 3, 3), angles.dtype)
+    root_rotation = np.empty((bones, 3, 3), angles.dtype)
     R = np.eye(3).astype(angles.dtype)
-    frame[0] = R
+    _copy(R, frame[0])
     joint = 0
     for bone in range(bones):
-        untwisted = R
+        untwisted, twists = R, False
         while joint < n and wing.segment[joint] == bone:
             for i in range(3):
                 for m in range(3):
                     axis[joint, i] += R[i, m] * wing.axis[joint, m]
             R = rotate_about(R, wing.axis[joint], angles[joint])
-            if not wing.twist[joint]:
+            if wing.twist[joint]:
+                twists = True
+            elif twists:
                 untwisted = rotate_about(untwisted, wing.axis[joint], angles[joint])
+            else:
+                untwisted = R
             joint += 1
-            frame[joint] = R
-        rotation[bone] = R
-        root_rotation[bone] = untwisted
-        origin[bone + 1] = origin[bone] + wing.bone_length[bone] * R[:, 1]
+            _copy(R, frame[joint])
+        _copy(R, rotation[bone])
+        _copy(untwisted, root_rotation[bone])
+        for i in range(3):
+            origin[bone + 1, i] = origin[bone, i] + wing.bone_length[bone] * R[i, 1]
     return Chain(axis, frame, origin[:bones], origin[bones], rotation, root_rotation)
+
+
+@kernel
+def _copy(matrix: Array, out: Array) -> None:
+    """Copy a matrix (3, 3); numba's own assignment takes longer than such a matrix's product."""
+    for i in range(3):
+        for j in range(3):
+            out[i, j] = matrix[i, j]
 
 
 def joints_turning_the_whole(wing: WingArrays) -> int:

@@ -20,51 +20,55 @@ COMPLEX_STEP = 1e-30
 
 
 @kernel
-def _twisted(wing: WingArrays, bones: Chain, angles: Array, bone: int, position: float) -> Array:
-    """A bone's frame (3, 3) at a position along it, twisted as far as it is there."""
-    if position == 0.0:
-        return bones.root_rotation[bone]
-    if position == 1.0:
-        return bones.rotation[bone]
-    R = bones.root_rotation[bone]
-    for j in range(wing.segment.size):
-        if wing.segment[j] == bone and wing.twist[j]:
-            R = rotate_about(R, wing.axis[j], position * angles[j])
-    return R
-
-
-@kernel
 def _aft_at(wing: WingArrays, bones: Chain, angles: Array, bone: int, position: float) -> Array:
-    """Aft direction at a position along a bone; at a joint the mean of both bones'."""
-    aft = -_twisted(wing, bones, angles, bone, position)[:, 0]
-    if position == 1.0 and bone < wing.bone_length.size - 1:
-        aft = 0.5 * (aft - bones.root_rotation[bone + 1][:, 0])
-    elif position == 0.0 and bone > 0:
-        aft = 0.5 * (aft - bones.rotation[bone - 1][:, 0])
+    """Aft direction (3,) at a position along a bone; at a joint the mean of both bones'."""
+    aft = np.empty(3, angles.dtype)
+    # Written out, here and below: for three numbers, operations on arrays take ten times as long.
+    if 0.0 < position < 1.0:
+        R = bones.root_rotation[bone]
+        for j in range(wing.segment.size):
+            if wing.segment[j] == bone and wing.twist[j]:
+                R = rotate_about(R, wing.axis[j], position * angles[j])
+        for i in range(3):
+            aft[i] = -R[i, 0]
+        return aft
+    inner, outer = (bone - 1, bone) if position == 0.0 else (bone, bone + 1)
+    for i in range(3):
+        if inner < 0:
+            aft[i] = -bones.root_rotation[outer, i, 0]
+        elif outer == wing.bone_length.size:
+            aft[i] = -bones.rotation[inner, i, 0]
+        else:
+            aft[i] = -0.5 * (bones.rotation[inner, i, 0] + bones.root_rotation[outer, i, 0])
     return aft
 
 
 @kernel
 def feather_tip(wing: WingArrays, bones: Chain, angles: Array, feather: int) -> Array:
     """The tip (3,) of one feather."""
-    bone, share = wing.feather_bone[feather], wing.feather_share[feather]
+    bone, count = wing.feather_bone[feather], wing.segment.size
     followed = 0
-    while followed < share.size and share[followed] == 1.0:
+    while followed < count and wing.feather_share[feather, followed] == 1.0:
         followed += 1
     R = bones.frame[followed]
-    for j in range(followed, share.size):
-        if share[j] != 0.0:
-            R = rotate_about(R, wing.axis[j], share[j] * angles[j])
+    for j in range(followed, count):
+        share = wing.feather_share[feather, j]
+        if share != 0.0:
+            R = rotate_about(R, wing.axis[j], share * angles[j])
     # The rest angle turns from straight aft (0) to outwards along the bone (90 deg).
-    rest, along = wing.feather_rest_angle[feather], bones.rotation[bone][:, 1]
-    direction = -np.cos(rest) * R[:, 0] + np.sin(rest) * R[:, 1]
+    rest = wing.feather_rest_angle[feather]
+    backwards, outwards = -np.cos(rest), np.sin(rest)
+    direction = np.empty(3, angles.dtype)
+    for i in range(3):
+        direction[i] = backwards * R[i, 0] + outwards * R[i, 1]
     hinge = wing.feather_hinge[feather]
     if hinge >= 0:
-        direction = turned_about(along, angles[hinge], direction)
-    position = wing.feather_position[feather]
-    aft, tip = _aft_at(wing, bones, angles, bone, position), np.empty(3, angles.dtype)
+        direction = turned_about(bones.rotation[bone, :, 1], angles[hinge], direction)
+    position, tip = wing.feather_position[feather], np.empty(3, angles.dtype)
+    aft = _aft_at(wing, bones, angles, bone, position)
+    reach = position * wing.bone_length[bone]
     for i in range(3):
-        root = bones.origin[bone, i] + position * wing.bone_length[bone] * along[i]
+        root = bones.origin[bone, i] + reach * bones.rotation[bone, i, 1]
         tip[i] = root + wing.half_thickness * aft[i] + wing.feather_length[feather] * direction[i]
     return tip
 
@@ -73,8 +77,10 @@ def feather_tip(wing: WingArrays, bones: Chain, angles: Array, feather: int) -> 
 def trailing_edge(wing: WingArrays, bones: Chain, angles: Array) -> Array:
     """Vertices (F, 3) of the trailing edge: the tips of the feathers, from shoulder to wing tip."""
     vertices = np.empty((wing.feather_length.size, 3), angles.dtype)
-    for i in range(vertices.shape[0]):
-        vertices[i] = feather_tip(wing, bones, angles, i)
+    for feather in range(vertices.shape[0]):
+        tip = feather_tip(wing, bones, angles, feather)
+        for i in range(3):
+            vertices[feather, i] = tip[i]
     return vertices
 
 

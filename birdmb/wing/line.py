@@ -9,7 +9,7 @@ shoulder are a pair, and so are their ends at a pointed tip; the other pairs fol
 with differences to one side where `birdmb.wing.line_ends` says so, solved for one shift d_j a
 station, by which the chord turns about P_j: A_j = A(s_j - d_j) and B_j = B(s_j + 3 d_j), with A and
 B the rounded edges. The system is tridiagonal; Newton's method starts at d = 0 on few stations,
-which are then doubled, so the line is a function of the joint angles alone, as smooth as the edges
+which are then refined, so the line is a function of the joint angles alone, as smooth as the edges
 are.
 """
 
@@ -21,17 +21,19 @@ import numpy as np
 
 from birdmb._kernels import kernel
 from birdmb._typing import Array, ComplexArray, FloatArray
-from birdmb.wing.line_ends import LineEnds, line_ends
+from birdmb.wing.line_ends import EdgeEnds, LineEnds, edge_ends, line_ends
 from birdmb.wing.rounded import (
     RoundedPolyline,
-    points,
     rounded_polyline,
     write_points_and_tangents,
+    write_rates,
 )
 
 MAX_NEWTON_STEPS = 40
 SHORTEST_DAMPING = 1e-3
 COARSEST = 16
+# More than this many times the stations are reached by further coarse lines.
+FINER = 4
 COARSE_TOLERANCE = 1e-3
 # Of the shift, a fraction of the wing's length: well below anything the loads can tell.
 SHIFT_TOLERANCE = 1e-11
@@ -59,12 +61,13 @@ class Linearised(NamedTuple):
 
     leading: FloatArray  # (n, 3) m
     trailing: FloatArray  # (n, 3) m
-    leading_slope: FloatArray  # (n, 3) m, by the pair's own shift
+    leading_slope: FloatArray  # (n, 3) m, by the edge's parameter
     trailing_slope: FloatArray  # (n, 3) m
     residual: FloatArray  # (n,) m2
     lower: FloatArray  # (n,) m2
     diagonal: FloatArray  # (n,) m2
     upper: FloatArray  # (n,) m2
+    step: FloatArray  # (n,) of Newton's method
 
 
 class SolvedLine(NamedTuple):
@@ -90,51 +93,28 @@ def station_parameters(n: int) -> FloatArray:
 
 
 @kernel
-def _newton_step(linear: Linearised, residual: FloatArray) -> FloatArray:
-    """Change (n,) of the shifts that makes the `residual` (n,) vanish to first order.
+def _newton_step(linear: Linearised, residual: FloatArray) -> None:
+    """Write the change (n,) of the shifts that makes the `residual` (n,) vanish to first order.
 
     Thomas algorithm; row i reads lower[i] x[i-1] + diagonal[i] x[i] + upper[i] x[i+1].
     """
-    n = residual.size
-    c, x = np.empty(n), np.empty(n)
-    c[0] = linear.upper[0] / linear.diagonal[0]
-    x[0] = -residual[0] / linear.diagonal[0]
-    for i in range(1, n):
-        per_pivot = 1.0 / (linear.diagonal[i] - linear.lower[i] * c[i - 1])
-        c[i] = linear.upper[i] * per_pivot
-        x[i] = (-residual[i] - linear.lower[i] * x[i - 1]) * per_pivot
-    for i in range(n - 2, -1, -1):
-        x[i] -= c[i] * x[i + 1]
-    return x
+    n, x, c = residual.size, linear.step, np.empty(residual.size)
+    before = above = 0.0
+    for i in range(n):
+        per_pivot = 1.0 / (linear.diagonal[i] - linear.lower[i] * above)
+        before = (-residual[i] - linear.lower[i] * before) * per_pivot
+        above = linear.upper[i] * per_pivot
+        x[i], c[i] = before, above
+    after = 0.0
+    for i in range(n - 1, -1, -1):
+        after = x[i] - c[i] * after
+        x[i] = after
 
 
 @kernel
-def _pair(
-    leading: RoundedPolyline, trailing: RoundedPolyline, s: FloatArray, shift: Array
-) -> tuple[Array, Array]:
-    return points(leading, s - shift), points(trailing, s + 3.0 * shift)
-
-
-@kernel
-def _obliqueness(A: Array, B: Array, ends: LineEnds, last: float) -> Array:
-    """Residual chord . step (n,) m^2, zero where chords are given: at shoulder and pointed tip.
-
-    The steps are central differences of the line but for the ends; `last` is the parameter's last.
-    """
-    n = A.shape[0]
-    F = np.zeros(n, A.dtype)
-    for i in range(3):
-        behind, here = 0.75 * A[0, i] + 0.25 * B[0, i], 0.75 * A[1, i] + 0.25 * B[1, i]
-        first = here - behind
-        for j in range(1, n - 1):
-            ahead = 0.75 * A[j + 1, i] + 0.25 * B[j + 1, i]
-            F[j] += (B[j, i] - A[j, i]) * (ahead - behind)
-            behind, here = here, ahead
-        F[1] -= (B[1, i] - A[1, i]) * ends.shoulder * first
-        if ends.square:
-            step = ends.tip * (here - behind) + (1.0 - ends.tip) * last * ends.direction[i]
-            F[n - 1] += (B[n - 1, i] - A[n - 1, i]) * step
-    return F
+def _on_line(leading: Array, trailing: Array, j: int, i: int) -> float:
+    """A coordinate of the line's point of the j-th pair, or of its rate."""
+    return 0.75 * leading[j, i] + 0.25 * trailing[j, i]
 
 
 @kernel
@@ -144,77 +124,115 @@ def _linearise(
     shift: FloatArray,
     out: Linearised,
 ) -> float:
-    """Write pairs, residual and derivatives at the shifts (n,); the residual's sum of squares."""
+    """Write pairs, residual and derivatives at the shifts (n,); the residual's sum of squares.
+
+    The residual is chord . step (n,) m2, with central differences of the line for steps but at its
+    ends, and zero where chords are given: at the shoulder and at a pointed tip.
+    """
     leading, trailing, ends = line
-    A, B, dA, dB, F, lower, diagonal, upper = out
+    A, B, dA, dB, F, lower, diagonal, upper, _ = out
     n, last = s.size, s[-1] - s[-2]
     write_points_and_tangents(leading, s - shift, A, dA)
     write_points_and_tangents(trailing, s + 3.0 * shift, B, dB)
     for j in range(n):
-        F[j] = lower[j] = upper[j] = 0.0
-        diagonal[j] = 1.0
-        for i in range(3):
-            dA[j, i] *= -1.0
-            dB[j, i] *= 3.0
-    for j in range(1, n if ends.square else n - 1):
-        ahead, here, behind = 1.0, 0.0, -1.0
-        if j == 1:
-            here, behind = -ends.shoulder.real, ends.shoulder.real - 1.0
-        if j == n - 1:
-            ahead, here, behind = 0.0, ends.tip.real, -ends.tip.real
-        before, after = j - 1, min(j + 1, n - 1)
-        oblique = by_own = by_before = by_after = 0.0
-        for i in range(3):
+        F[j] = lower[j] = diagonal[j] = upper[j] = 0.0
+    diagonal[0] = 1.0
+    for i in range(3):
+        # By a shift the leading edge's parameter falls by one, the trailing edge's rises by three.
+        behind, behind_slope = _on_line(A, B, 0, i), 0.75 * (dB[0, i] - dA[0, i])
+        here, slope = _on_line(A, B, 1, i), 0.75 * (dB[1, i] - dA[1, i])
+        first, first_slope, second_slope = here - behind, behind_slope, slope
+        for j in range(1, n - 1):
+            chord, turning = B[j, i] - A[j, i], 3.0 * dB[j, i] + dA[j, i]
+            ahead, ahead_slope = _on_line(A, B, j + 1, i), 0.75 * (dB[j + 1, i] - dA[j + 1, i])
+            step = ahead - behind
+            F[j] += chord * step
+            lower[j] -= chord * behind_slope
+            diagonal[j] += turning * step
+            upper[j] += chord * ahead_slope
+            behind, behind_slope, here, slope = here, slope, ahead, ahead_slope
+        weight, chord = ends.shoulder.real, B[1, i] - A[1, i]
+        F[1] -= weight * chord * first
+        lower[1] += weight * chord * first_slope
+        diagonal[1] -= weight * ((3.0 * dB[1, i] + dA[1, i]) * first + chord * second_slope)
+        if ends.square:
+            j, weight = n - 1, ends.tip.real
             chord = B[j, i] - A[j, i]
-            step = (
-                ahead * (0.75 * A[after, i] + 0.25 * B[after, i])
-                + here * (0.75 * A[j, i] + 0.25 * B[j, i])
-                + behind * (0.75 * A[before, i] + 0.25 * B[before, i])
-            )
-            if j == n - 1:
-                step += (1.0 - ends.tip.real) * last * ends.direction[i].real
-            oblique += chord * step
-            own = 0.75 * dA[j, i] + 0.25 * dB[j, i]
-            by_own += (dB[j, i] - dA[j, i]) * step + here * chord * own
-            by_after += ahead * chord * (0.75 * dA[after, i] + 0.25 * dB[after, i])
-            by_before += behind * chord * (0.75 * dA[before, i] + 0.25 * dB[before, i])
-        F[j], lower[j], diagonal[j], upper[j] = oblique, by_before, by_own, by_after
+            step = weight * (here - behind) + (1.0 - weight) * last * ends.direction[i].real
+            F[j] += chord * step
+            lower[j] -= weight * chord * behind_slope
+            diagonal[j] += (3.0 * dB[j, i] + dA[j, i]) * step + weight * chord * slope
+    if not ends.square:
+        diagonal[n - 1] = 1.0
     return np.sum(F * F)
 
 
 @kernel
+def _residual_rates(
+    linear: Linearised, ends: LineEnds, last: float, dA: FloatArray, dB: FloatArray
+) -> FloatArray:
+    """Rates (n,) m2 of the residual if the points move at rates `dA` and `dB` (n, 3) m.
+
+    The imaginary parts of `ends` are their rates; `last` is the parameter's last step.
+    """
+    A, B, n = linear.leading, linear.trailing, linear.step.size
+    rates = np.zeros(n)
+    for i in range(3):
+        behind, behind_rate = _on_line(A, B, 0, i), _on_line(dA, dB, 0, i)
+        here, rate = _on_line(A, B, 1, i), _on_line(dA, dB, 1, i)
+        first, first_rate = here - behind, rate - behind_rate
+        for j in range(1, n - 1):
+            ahead, ahead_rate = _on_line(A, B, j + 1, i), _on_line(dA, dB, j + 1, i)
+            rates[j] += (dB[j, i] - dA[j, i]) * (ahead - behind)
+            rates[j] += (B[j, i] - A[j, i]) * (ahead_rate - behind_rate)
+            behind, behind_rate, here, rate = here, rate, ahead, ahead_rate
+        weight = ends.shoulder
+        rates[1] -= weight.real * (dB[1, i] - dA[1, i]) * first
+        rates[1] -= (B[1, i] - A[1, i]) * (weight.imag * first + weight.real * first_rate)
+        if ends.square:
+            j, weight, parallel = n - 1, ends.tip, last * ends.direction[i]
+            step = weight.real * (here - behind) + (1.0 - weight.real) * parallel.real
+            step_rate = weight.real * (rate - behind_rate) + (1.0 - weight.real) * parallel.imag
+            step_rate += weight.imag * (here - behind - parallel.real)
+            rates[j] += (dB[j, i] - dA[j, i]) * step + (B[j, i] - A[j, i]) * step_rate
+    return rates
+
+
+@kernel
 def _solve_shifts(
-    leading: RoundedPolyline,
-    trailing: RoundedPolyline,
+    edges: tuple[RoundedPolyline, RoundedPolyline, EdgeEnds],
     s: FloatArray,
     guess: FloatArray,
     tolerance: float,
 ) -> tuple[FloatArray, Linearised, bool]:
     """Damped Newton iteration for the shifts; also whether it reached the tolerance."""
+    leading, trailing, given = edges
     shift, n = guess, s.size
-    line = leading, trailing, line_ends(leading, trailing, s[-1] - s[-2])
+    line = leading, trailing, line_ends(given, s[-1] - s[-2])
+    vectors, values = np.empty((4, n, 3)), np.empty((5, n))
     linear = Linearised(
-        np.empty((n, 3)),
-        np.empty((n, 3)),
-        np.empty((n, 3)),
-        np.empty((n, 3)),
-        np.empty(n),
-        np.empty(n),
-        np.empty(n),
-        np.empty(n),
+        vectors[0],
+        vectors[1],
+        vectors[2],
+        vectors[3],
+        values[0],
+        values[1],
+        values[2],
+        values[3],
+        values[4],
     )
     squares = _linearise(line, s, shift, linear)
     earlier = 0.0
     for _ in range(MAX_NEWTON_STEPS):
-        step = _newton_step(linear, linear.residual)
+        _newton_step(linear, linear.residual)
         before, damping = squares, 1.0
         while True:
-            squares = _linearise(line, s, shift + damping * step, linear)
+            squares = _linearise(line, s, shift + damping * linear.step, linear)
             if squares <= before or damping < SHORTEST_DAMPING:
                 break
             damping *= 0.5
-        shift = shift + damping * step
-        size = np.max(np.abs(step))
+        shift = shift + damping * linear.step
+        size = np.max(np.abs(linear.step))
         # Where full steps converge quadratically, the next one would be about size^3/earlier^2.
         quadratic = damping == 1.0 and size < QUADRATIC * earlier
         if size < tolerance or (quadratic and size**3 < tolerance * earlier**2):
@@ -251,17 +269,18 @@ def solved_line(
     """Find the shifts that make the chords orthogonal; imaginary parts of the edges are ignored."""
     leading = rounded_polyline(leading_edge.real.copy(), rounding)
     trailing = rounded_polyline(trailing_edge.real.copy(), rounding)
+    edges = leading, trailing, edge_ends(leading, trailing)
     # On many stations Newton's method from zero may end on a line that doubles back on itself; a
     # coarse line, refined, leads to the plain one.
     n = min(COARSEST, stations)
     shift = np.zeros(n)
     while n < stations:
         s = station_parameters(n)
-        shift, _, _ = _solve_shifts(leading, trailing, s, shift, COARSE_TOLERANCE)
-        n = min(2 * n, stations)
+        shift, _, _ = _solve_shifts(edges, s, shift, COARSE_TOLERANCE)
+        n = min(FINER * n, stations)
         shift = _refined(shift, n)
     s = station_parameters(n)
-    shift, linear, converged = _solve_shifts(leading, trailing, s, shift, SHIFT_TOLERANCE)
+    shift, linear, converged = _solve_shifts(edges, s, shift, SHIFT_TOLERANCE)
     return SolvedLine(leading, trailing, s, shift, linear, converged)
 
 
@@ -275,16 +294,22 @@ def moved_line(
     step is made with them, which by the implicit function theorem is exact.
     """
     s, linear = line.station, line.linear
-    moving_leading = rounded_polyline(leading_edge, rounding)
-    moving_trailing = rounded_polyline(trailing_edge, rounding)
-    A, B = _pair(moving_leading, moving_trailing, s, line.shift.astype(np.complex128))
+    leading = rounded_polyline(leading_edge, rounding)
+    trailing = rounded_polyline(trailing_edge, rounding)
+    dA, dB = np.empty((s.size, 3)), np.empty((s.size, 3))
+    write_rates(leading, s - line.shift, dA)
+    write_rates(trailing, s + 3.0 * line.shift, dB)
     last = s[-1] - s[-2]
-    ends = line_ends(moving_leading, moving_trailing, last)
-    shift_rate = _newton_step(linear, _obliqueness(A, B, ends, last).imag.copy())
+    ends = line_ends(edge_ends(leading, trailing), last)
+    _newton_step(linear, _residual_rates(linear, ends, last, dA, dB))
+    A, B = np.empty((s.size, 3), np.complex128), np.empty((s.size, 3), np.complex128)
     for j in range(s.size):
+        shift_rate = linear.step[j]
         for i in range(3):
-            A[j, i] += 1j * linear.leading_slope[j, i] * shift_rate[j]
-            B[j, i] += 1j * linear.trailing_slope[j, i] * shift_rate[j]
+            dA[j, i] -= linear.leading_slope[j, i] * shift_rate
+            dB[j, i] += 3.0 * linear.trailing_slope[j, i] * shift_rate
+            A[j, i] = linear.leading[j, i] + 1j * dA[j, i]
+            B[j, i] = linear.trailing[j, i] + 1j * dB[j, i]
     return PairedEdges(A, B, line.converged)
 
 
@@ -297,7 +322,8 @@ def line_to_follow(line: SolvedLine, pairs: PairedEdges) -> Array:
     follows.
     """
     points = 0.75 * pairs.leading + 0.25 * pairs.trailing
-    weight = line_ends(line.leading, line.trailing, line.station[-1] - line.station[-2]).shoulder
+    edges, last = edge_ends(line.leading, line.trailing), line.station[-1] - line.station[-2]
+    weight = line_ends(edges, last).shoulder
     first = points[1] - points[0]
     points[0] -= weight.real * (points[2] - points[1] - first)
     return points

@@ -19,7 +19,7 @@ import numpy as np
 
 from birdmb._kernels import kernel
 from birdmb._typing import Array
-from birdmb.wing.rounded import RoundedPolyline, point, smooth_step, tangent
+from birdmb.wing.rounded import RoundedPolyline, smooth_step
 
 # Of the edges' lengths, between their ends at a pointed tip: more than round-off.
 _POINTED = 1e-9
@@ -39,27 +39,48 @@ def _dot(a: Array, b: Array) -> complex:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
+class EdgeEnds(NamedTuple):
+    """Chords and directions of the edges, by their parameter, at shoulder and tip, (3,) m."""
+
+    first_chord: Array
+    leading_start: Array  # direction of the leading edge, outwards
+    trailing_start: Array
+    last_chord: Array
+    leading_end: Array
+    trailing_end: Array
+
+
 @kernel
-def line_ends(leading: RoundedPolyline, trailing: RoundedPolyline, step: float) -> LineEnds:
-    """Conditions for a line whose first and last stations are `step` of the parameter apart."""
-    p = np.empty(3, leading.start.dtype)
-    r = np.empty(3, leading.start.dtype)
+def edge_ends(leading: RoundedPolyline, trailing: RoundedPolyline) -> EdgeEnds:
+    """Ends of two edges; their first and last legs are straight there."""
+    leading_end, trailing_end = leading.tangent.copy(), trailing.tangent.copy()
     chord = trailing.start - leading.start
-    tangent(leading, 0.0, p)
-    tangent(trailing, 0.0, r)
-    shoulder = _narrowing(chord, p, r, step)
-    point(leading, 1.0, p)
-    point(trailing, 1.0, r)
-    chord = r - p
-    tangent(leading, 1.0, p)
-    tangent(trailing, 1.0, r)
-    square = _dot(chord, chord).real > _POINTED**2 * _dot(p, p).real
+    last = np.empty_like(chord)
+    for i in range(3):
+        front, back = leading.start[i], trailing.start[i]
+        front += leading.tangent[i]
+        back += trailing.tangent[i]
+        for k in range(leading.corner.size):
+            leading_end[i] += leading.turn[k, i]
+            front += (1.0 - leading.corner[k]) * leading.turn[k, i]
+        for k in range(trailing.corner.size):
+            trailing_end[i] += trailing.turn[k, i]
+            back += (1.0 - trailing.corner[k]) * trailing.turn[k, i]
+        last[i] = back - front
+    return EdgeEnds(chord, leading.tangent, trailing.tangent, last, leading_end, trailing_end)
+
+
+@kernel
+def line_ends(edges: EdgeEnds, step: float) -> LineEnds:
+    """Conditions for a line whose first and last stations are `step` of the parameter apart."""
+    p, r, chord = edges.leading_end, edges.trailing_end, edges.last_chord
+    shoulder = _narrowing(edges.first_chord, edges.leading_start, edges.trailing_start, step)
     tip = _narrowing(chord, -p, -r, step)
+    square_p, square_r, both = _dot(p, p), _dot(r, r), _dot(p, r)
+    square = _dot(chord, chord).real > _POINTED**2 * square_p.real
     # With steps p and k r along leading and trailing edge, chords stay parallel, and orthogonal to
     # the line, if (k r - p) . (3 p + k r) = 0.
-    length_p, length_r = np.sqrt(_dot(p, p)), np.sqrt(_dot(r, r))
-    cosine = _dot(p, r) / (length_p * length_r)
-    k = (np.sqrt(3.0 + cosine * cosine) - cosine) * length_p / length_r
+    k = (np.sqrt(3.0 * square_p * square_r + both * both) - both) / square_r
     return LineEnds(shoulder, tip, 0.75 * p + 0.25 * k * r, square)
 
 

@@ -10,7 +10,12 @@ from birdmb.wing.chain import joint_chain
 from birdmb.wing.edges import wing_edges
 from birdmb.wing.line import orthogonal_line
 from birdmb.wing.one_step import one_step_line
-from birdmb.wing.rounded import point, rounded_polyline, tangent
+from birdmb.wing.rounded import (
+    points,
+    rounded_polyline,
+    write_points_and_tangents,
+    write_rates,
+)
 from birdmb.wing.shape import turned, wing_shape
 from tests.conftest import REFERENCE
 from tests.wing.test_edges import from_reference_axes
@@ -31,21 +36,35 @@ def edges_at(wing, t):
 def test_rounded_polyline_leaves_the_legs_only_near_the_corners():
     vertices = np.array([[0.0, 0, 0], [1, 0, 0], [1, 2, 0], [1, 2, 3]])
     line = rounded_polyline(vertices, 0.5)
-    out = np.empty(3)
-    for s, expected in ((0.0, vertices[0]), (1.0, vertices[3]), (2 / 6, [1, 1, 0])):
-        point(line, s, out)
-        np.testing.assert_allclose(out, expected, atol=1e-15)
+    on_legs = points(line, np.array([0.0, 1.0, 2 / 6]))
+    np.testing.assert_allclose(on_legs, [vertices[0], vertices[3], [1, 1, 0]], atol=1e-15)
     # Half-width 0.5 * 1 * 2 / 3 at the first corner: there the legs are left.
-    for s in (1 - 1 / 3, 1 + 1 / 3):
-        point(line, s / 6, out)
-        np.testing.assert_allclose(out, [min(s, 1), max(0, s - 1), 0], atol=1e-15)
-    point(line, 1 / 6, out)
-    assert 0 < np.hypot(1 - out[0], out[1]) < 1 / 3
-    rate = np.empty(3)
-    tangent(line, 0.2, rate)
-    q = np.empty(3, complex)
-    point(rounded_polyline(vertices + 0j, 0.5), 0.2 + 1e-30j, q)
-    np.testing.assert_allclose(rate, q.imag / 1e-30, rtol=1e-13)
+    s = np.array([1 - 1 / 3, 1 + 1 / 3])
+    expected = [[min(along, 1), max(0, along - 1), 0] for along in s]
+    np.testing.assert_allclose(points(line, s / 6), expected, atol=1e-15)
+    corner = points(line, np.array([1 / 6]))[0]
+    assert 0 < np.hypot(1 - corner[0], corner[1]) < 1 / 3
+
+
+def test_tangents_of_a_rounded_polyline_are_its_derivatives():
+    vertices = np.array([[0.0, 0, 0], [1, 0, 0.3], [1, 2, 0], [1, 2, 3]])
+    s = np.linspace(0, 1, 41)
+    found, tangents = np.empty((41, 3)), np.empty((41, 3))
+    write_points_and_tangents(rounded_polyline(vertices, 0.5), s, found, tangents)
+    stepped = points(rounded_polyline(vertices + 0j, 0.5), s + 1e-30j)
+    np.testing.assert_allclose(found, stepped.real, rtol=0, atol=1e-15)
+    np.testing.assert_allclose(tangents, stepped.imag / 1e-30, rtol=0, atol=1e-13)
+
+
+def test_rates_of_a_rounded_polyline_are_those_of_its_points():
+    vertices = np.array([[0.0, 0, 0], [1, 0, 0.3], [1, 2, 0], [1, 2, 3]])
+    moving = vertices + 1e-30j * np.random.default_rng(3).standard_normal(vertices.shape)
+    s, rates = np.linspace(0, 1, 41), np.empty((41, 3))
+    write_rates(rounded_polyline(moving, 0.5), s, rates)
+    ahead, back = (
+        points(rounded_polyline(vertices + h * moving.imag / 1e-30, 0.5), s) for h in (1e-6, -1e-6)
+    )
+    np.testing.assert_allclose(rates / 1e-30, (ahead - back) / 2e-6, rtol=0, atol=1e-8)
 
 
 @pytest.mark.parametrize("t", PHASES)

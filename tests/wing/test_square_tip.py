@@ -7,7 +7,7 @@ from birdmb.aerodynamics.elements import place_elements
 from birdmb.wing.arrays import wing_arrays
 from birdmb.wing.edges import wing_edges
 from birdmb.wing.line import orthogonal_line
-from birdmb.wing.line_ends import line_ends
+from birdmb.wing.line_ends import edge_ends, line_ends
 from birdmb.wing.rounded import rounded_polyline
 from birdmb.wing.shape import wing_shape
 from tests.aerodynamics.pairs import element_loads, resultant
@@ -137,11 +137,12 @@ def test_conditions_go_where_the_chord_is_short():
     front = rounded_polyline(np.array([[0.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 1.0, 0.0]]), 0.5)
     for tip, expected in ((0.4, (0.0, 1.0)), (0.2, (0.5, 0.5)), (0.1, (1.0, 0.0))):
         back = [[-0.2, 0.0, 0.0], [-0.1 - tip / 2, 0.5, 0.0], [-tip, 1.0, 0.0]]
-        ends = line_ends(front, rounded_polyline(np.array(back), 0.5), 1e-3)
+        ends = line_ends(edge_ends(front, rounded_polyline(np.array(back), 0.5)), 1e-3)
         assert (ends.shoulder, ends.tip) == pytest.approx(expected)
         assert ends.square
     pointed = [[-0.2, 0.0, 0.0], [-0.2, 0.5, 0.0], [0.0, 1.0, 0.0]]
-    assert not line_ends(front, rounded_polyline(np.array(pointed), 0.5), 1e-3).square
+    edges = edge_ends(front, rounded_polyline(np.array(pointed), 0.5))
+    assert not line_ends(edges, 1e-3).square
 
 
 @pytest.mark.parametrize(
