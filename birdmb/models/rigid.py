@@ -117,6 +117,7 @@ class RigidModel(BirdModel):
         self._constants = (self.aero, rigid_body(bird, self.motion))
         self._phases_kept = 0
         self._tables: dict[tuple[float, float, int] | bytes, RigidTable] = {}
+        self._latest: tuple[FloatArray, RigidTable | None] = np.empty(0), None
 
     @cached_property
     def steps_per_beat(self) -> int:
@@ -164,11 +165,11 @@ class RigidModel(BirdModel):
         Raises:
             StateError: the wing has no loads, or the motion is beyond floating point.
         """
-        return self._along(*self._table_for(times), times, states, slopes_wanted=False)[0]
+        return self._along(*self._table_with(times), times, states, slopes_wanted=False)[0]
 
     def rate_jacobians(self, times: FloatArray, states: FloatArray) -> FloatArray:
         """Derivatives (K, n, n) of the rates, rows, by the states, columns; exact; as `rates`."""
-        return self._along(*self._table_for(times), times, states, slopes_wanted=True)[1]
+        return self._along(*self._table_with(times), times, states, slopes_wanted=True)[1]
 
     def _along(
         self,
@@ -290,6 +291,17 @@ class RigidModel(BirdModel):
         """The wing at every half step from t0 on; kept, for flows ask for the same ones again."""
         times = t0 + duration * np.arange(2 * steps + 1) / max(2 * steps, 1)
         return self._kept((t0, duration, steps), times)
+
+    def _table_with(self, times: FloatArray) -> tuple[RigidTable, IntArray]:
+        """A table that holds the wing at `times` (K,), and at which of its phases they are."""
+        known, table = self._latest
+        if table is not None:
+            phase = np.minimum(np.searchsorted(known, times), known.size - 1)
+            if (known[phase] == times).all():
+                return table, phase
+        table, phase = self._table_for(times)
+        self._latest = np.unique(times), table
+        return table, phase
 
     def _table_for(self, times: FloatArray) -> tuple[RigidTable, IntArray]:
         """The wing at the distinct ones of `times` (K,), and which of them each is; kept too."""

@@ -32,6 +32,8 @@ from birdmb.wing.stacked import shape_at, wing_shapes
 STEPS_PER_BEAT = 60
 BODY_STATES, BODY_UNITS, BODY_SCALE = PLANAR.states, PLANAR.units, PLANAR.scale
 _ANGLES = ("phi", "theta")
+# By how much a number of beats may be off a whole one.
+_WHOLE = 1e-12
 
 
 class BirdModel(Summarised, ABC):
@@ -101,6 +103,11 @@ class BirdModel(Summarised, ABC):
     @abstractmethod
     def rates(self, times: FloatArray, states: FloatArray) -> FloatArray:
         """Rates (K, n) at `times` (K,) s of `states` (K, n), NaN where these are not finite."""
+
+    def repeats_after(self, duration: float) -> bool:
+        """Whether the rates surely repeat after `duration` (s): whole beats, in still air."""
+        beats = duration / self.period
+        return self._gust is None and abs(beats - round(beats)) <= _WHOLE * beats
 
     @abstractmethod
     def initial_guess(self) -> FloatArray:

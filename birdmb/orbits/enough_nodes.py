@@ -26,6 +26,8 @@ _SLOWEST_DECAY = 0.5
 _RUNGS_TO_JUDGE = 4
 # A corrected solution is better, not exact.
 _ERROR_PER_CORRECTION = 2.0
+# What the highest harmonics hold is more than the error, if not by so much.
+_SURELY = 4.0
 # Of the error that the nodes leave: a residual below it decides nothing on more nodes.
 _PART_OF_ERROR = 0.1
 # Of the residual that a linear step may leave: the derivatives that it takes are no better.
@@ -136,7 +138,7 @@ def collocate(
     def enough(u: FloatArray) -> float:
         """More nodes will be needed: what these leave of error is not worth a smaller residual."""
         left = _tail(u, equations.nodes)
-        return _PART_OF_ERROR * left if roughly and left > accuracy else 0.0
+        return _PART_OF_ERROR * left if roughly and left > _SURELY * accuracy else 0.0
 
     while True:
         goal = max(tolerance, equations.round_off(u))

@@ -8,7 +8,7 @@ import numpy as np
 
 from birdmb._typing import FloatArray
 from birdmb.errors import ArgumentError, StateError
-from birdmb.orbits.problem import HasRates, HasRhs, Model
+from birdmb.orbits.problem import HasRates, HasRhs, KnowsRepetition, Model
 from birdmb.orbits.right_hand_side import batched_rates
 
 # A period typed with eight digits is off by less than this; one of another forcing by far more.
@@ -85,6 +85,8 @@ def _rhs_repeats(
     model: Model, x: FloatArray, scale: FloatArray, start: float, period: float, shift: float
 ) -> bool:
     if not isinstance(model, HasRates | HasRhs):
+        return True
+    if isinstance(model, KnowsRepetition) and model.repeats_after(shift):
         return True
     times = start + period * _PHASES[:_INSTANTS_COMPARED]
     try:

@@ -95,6 +95,14 @@ class HasStartingPaths(Protocol):
 
 
 @runtime_checkable
+class KnowsRepetition(Protocol):
+    """The model knows in which times its right-hand side repeats, without an evaluation."""
+
+    def repeats_after(self, duration: float, /) -> bool:
+        """Whether it surely repeats after `duration` (s); where not, evaluations may tell."""
+
+
+@runtime_checkable
 class HasStatePeriods(Protocol):
     """The model has states, such as angles, that mean the same a period of theirs further on."""
 
