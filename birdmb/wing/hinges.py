@@ -45,8 +45,8 @@ def orthogonal_wing(
     pairs = moved_line(line, leading, trailing, rounding)
     twist = np.empty((moving.size, stations // 2, 6))
     for m in range(moving.size):
-        moving_leading, moving_trailing = _edges_moved(wing, bones, angles, trailing, moving[m])
-        twist[m] = _control_twist(moved_line(line, moving_leading, moving_trailing, rounding))
+        edges = _edges_moved(wing, bones, angles, leading, trailing, moving[m])
+        _write_control_twist(moved_line(line, edges[0], edges[1], rounding), twist[m])
     return pairs, leading, line_to_follow(line, pairs), twist
 
 
@@ -59,26 +59,35 @@ def one_step_wing(
     pairs, guide = one_step_line(leading, trailing, stations)
     twist = np.empty((moving.size, stations // 2, 6))
     for m in range(moving.size):
-        moving_leading, moving_trailing = _edges_moved(wing, bones, angles, trailing, moving[m])
-        twist[m] = _control_twist(one_step_line(moving_leading, moving_trailing, stations)[0])
+        edges = _edges_moved(wing, bones, angles, leading, trailing, moving[m])
+        _write_control_twist(one_step_line(edges[0], edges[1], stations)[0], twist[m])
     return pairs, leading, guide, twist
 
 
 @kernel
 def _edges_moved(
-    wing: WingArrays, bones: Chain, angles: ComplexArray, trailing: ComplexArray, which: int
+    wing: WingArrays,
+    bones: Chain,
+    angles: ComplexArray,
+    leading: ComplexArray,
+    trailing: ComplexArray,
+    which: int,
 ) -> tuple[ComplexArray, ComplexArray]:
     """The edges (m, 3) m, with the rates that one of the angles gives them as imaginary parts."""
     alone = _one_moving(angles, which)
     if which < wing.segment.size:
         return wing_edges(wing, alone)
-    # A hinge moves feathers alone.
+    # A hinge moves feathers alone, and the leading edge only where it ends with one of them.
     still = _without_rates(bones)
-    moved = trailing.real.astype(np.complex128)
-    for i in range(wing.feather_hinge.size):
-        if wing.feather_hinge[i] == which:
-            moved[i] = feather_tip(wing, still, alone, i)
-    return leading_edge_to(wing, still, moved[-1]), moved
+    moved, last = trailing.real.astype(np.complex128), wing.feather_hinge.size - 1
+    for feather in range(last + 1):
+        if wing.feather_hinge[feather] == which:
+            tip = feather_tip(wing, still, alone, feather)
+            for i in range(3):
+                moved[feather, i] = tip[i]
+    if wing.feather_hinge[last] == which:
+        return leading_edge_to(wing, still, moved[last]), moved
+    return leading.real.astype(np.complex128), moved
 
 
 @kernel
@@ -101,16 +110,17 @@ def _one_moving(angles: ComplexArray, which: int) -> ComplexArray:
 
 
 @kernel
-def _control_twist(pairs: PairedEdges) -> FloatArray:
-    """Velocities of the control points and angular velocities of their chords, (N, 6)."""
-    n = pairs.leading.shape[0] // 2
-    twist = np.empty((n, 6))
-    twist[:, :3] = (0.75 * pairs.leading + 0.25 * pairs.trailing)[0::2].imag / COMPLEX_STEP
-    for e in range(n):
-        chord = pairs.trailing[2 * e] - pairs.leading[2 * e]
-        c, rate = chord.real, chord.imag / COMPLEX_STEP
-        square = c[0] * c[0] + c[1] * c[1] + c[2] * c[2]
-        twist[e, 3] = (c[1] * rate[2] - c[2] * rate[1]) / square
-        twist[e, 4] = (c[2] * rate[0] - c[0] * rate[2]) / square
-        twist[e, 5] = (c[0] * rate[1] - c[1] * rate[0]) / square
-    return twist
+def _write_control_twist(pairs: PairedEdges, twist: FloatArray) -> None:
+    """Write velocities of the control points and angular velocities of their chords, (N, 6)."""
+    for e in range(twist.shape[0]):
+        square = 0.0
+        for i in range(3):
+            front, back = pairs.leading[2 * e, i], pairs.trailing[2 * e, i]
+            twist[e, i] = (0.75 * front.imag + 0.25 * back.imag) / COMPLEX_STEP
+            square += (back.real - front.real) ** 2
+        for i in range(3):
+            j, k = (i + 1) % 3, (i + 2) % 3
+            along = pairs.trailing[2 * e, j] - pairs.leading[2 * e, j]
+            across = pairs.trailing[2 * e, k] - pairs.leading[2 * e, k]
+            turning = along.real * across.imag - across.real * along.imag
+            twist[e, 3 + i] = turning / COMPLEX_STEP / square

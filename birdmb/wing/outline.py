@@ -9,6 +9,7 @@ from typing import cast
 
 import numpy as np
 
+from birdmb._kernels import kernel
 from birdmb._typing import ComplexArray, FloatArray
 from birdmb.errors import StateError
 from birdmb.topology import Bird, Discretisation
@@ -71,14 +72,23 @@ def areas_across(
     Raises:
         StateError: an edge of the wing has no extent.
     """
-    parts = np.zeros(len(angles))
-    for k, at in enumerate(angles):
-        leading, trailing = wing_edges(wing, at.astype(complex))
-        # Rounded edges, and chords between them, are within the hull of the edges' vertices.
-        if min(leading[:, 1].real.min(), trailing[:, 1].real.min()) + wing.root[1] < 0.0:
-            with _extent_told():
-                parts[k] = _area_across(wing.root + _chords(leading, trailing, discretisation)[0])
+    parts, still = np.zeros(len(angles)), angles.astype(complex)
+    # Rounded edges, and chords between them, are within the hull of the edges' vertices.
+    for k in np.flatnonzero(_innermost(wing, still) + wing.root[1] < 0.0):
+        leading, trailing = wing_edges(wing, still[k])
+        with _extent_told():
+            parts[k] = _area_across(wing.root + _chords(leading, trailing, discretisation)[0])
     return parts
+
+
+@kernel
+def _innermost(wing: WingArrays, angles: ComplexArray) -> FloatArray:
+    """Least distance (K,) m of the edges' vertices outwards from the shoulder, negative inwards."""
+    least = np.empty(angles.shape[0])
+    for k in range(least.size):
+        leading, trailing = wing_edges(wing, angles[k])
+        least[k] = min(np.min(leading[:, 1].real), np.min(trailing[:, 1].real))
+    return least
 
 
 def _area_across(chords: FloatArray) -> float:
