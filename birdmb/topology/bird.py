@@ -338,11 +338,18 @@ class Bird(Part):
         given too; without a damping it gets none. Raises `TopologyError` for an unknown name or a
         value that a file must not have either.
         """
-        # Defaults are left out where they must follow a change, as the mid-bone follows the length.
-        document = self._document(resolved=any(map(is_resolution, values)), exclude_unset=True)
+        # Defaults are left out where they must follow a change, as the mid-bone follows the length;
+        # parts that do not change stay as they are, for studies vary one bird many thousand times.
+        document: dict[str, Any] = {key: part for key, part in self if key in self.model_fields_set}
+        if any(map(is_resolution, values)):
+            document["wing"] = self._resolved(self.wing.model_dump(exclude_unset=True))
         put_values(document, values, self._places, self.name)
-        changed = ", ".join(f"{name} = {shown(value)}" for name, value in values.items())
-        return validated(type(self), document, f"{self.name} (with {changed})")
+
+        def origin() -> str:
+            changed = ", ".join(f"{name} = {shown(value)}" for name, value in values.items())
+            return f"{self.name} (with {changed})"
+
+        return validated(type(self), document, origin)
 
     @checked
     def with_joint(self, name: str, **values: Any) -> Bird:
@@ -394,5 +401,9 @@ class Bird(Part):
         """What `model_dump` returns; `resolved` with the numbers of the discretisation's preset."""
         document = self.model_dump(**options)
         if resolved:
-            document["wing"]["discretisation"] = self.wing.resolved_discretisation.model_dump()
+            document["wing"] = self._resolved(document["wing"])
         return document
+
+    def _resolved(self, wing: dict[str, Any]) -> dict[str, Any]:
+        """The wing's table with the numbers of the discretisation's preset."""
+        return {**wing, "discretisation": self.wing.resolved_discretisation.model_dump()}

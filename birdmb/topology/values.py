@@ -152,6 +152,8 @@ def put_values(
 ) -> None:
     """Put other values into a bird's document, under the dotted names `known`.
 
+    In place of tables may stand parts of a bird; those that change become tables.
+
     Raises:
         TopologyError: a name is unknown, or set as a whole and in parts; `owner` is whose.
     """
@@ -166,8 +168,7 @@ def put_values(
         table: Any = document
         for part in parents:
             inside = table[part] if isinstance(part, int) else table.setdefault(part, {})
-            if isinstance(key, int) and isinstance(inside, tuple):  # one number of a list
-                inside = table[part] = list(inside)
+            table[part] = inside = _open_to_change(inside)
             table = inside
         if isinstance(key, str):
             table.pop(_other_unit(key), None)
@@ -175,7 +176,17 @@ def put_values(
     for table, key, value in changes:
         table[key] = value.tolist() if isinstance(value, np.ndarray | np.generic) else value
     for joint in document["joints"]:
-        _free_if_sprung(joint, values)
+        if not isinstance(joint, Joint):  # of which nothing is given
+            _free_if_sprung(joint, values)
+
+
+def _open_to_change(inside: Any) -> Any:
+    """A part as a table without its defaults, several parts or numbers as such; else itself."""
+    if isinstance(inside, Segments):
+        return dict(inside.items())
+    if isinstance(inside, Part):
+        return inside.model_dump(exclude_unset=True)
+    return list(inside) if isinstance(inside, tuple) else inside
 
 
 def is_resolution(name: str) -> bool:
