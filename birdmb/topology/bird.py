@@ -92,8 +92,9 @@ class Bird(Part):
     def _chain(cls, joints: NamedParts[Joint], info: ValidationInfo) -> NamedParts[Joint]:
         if twice := first_repeated(joint.name for joint in joints):
             raise problem(f"two joints are called {shown(twice)}; each needs a name of its own")
+        tables = cls.model_fields
         for joint in joints:
-            if (place := joint.name.partition(".")[0]) in cls.model_fields:
+            if (place := joint.name.partition(".")[0]) in tables:
                 raise problem(
                     f"{shown(joint.name)} must not start with {place}, a table of the file"
                 )
@@ -165,12 +166,12 @@ class Bird(Part):
 
     @model_validator(mode="after")
     def _shares_are_of_joints(self) -> Self:
+        known = self.joint_names
         for i, feather in enumerate(self.feathers):
             for joint, _ in feather.shares:
-                if joint not in self.joint_names:
+                if joint not in known:
                     raise problem(
-                        f"no joint is called {shown(joint)}; "
-                        f"the nearest: {nearest(joint, self.joint_names)}",
+                        f"no joint is called {shown(joint)}; the nearest: {nearest(joint, known)}",
                         "feathers",
                         i,
                         "shares",

@@ -20,6 +20,7 @@ from birdmb.topology.segments import Segments
 from birdmb.topology.wings import Wing
 
 _RESOLUTION = "wing.discretisation"
+_LIKE_THE_JOINT = JointSide()
 
 
 def parse_assignment(text: str) -> tuple[str, Any]:
@@ -52,24 +53,25 @@ def named_places(bird: Part) -> dict[str, Location]:
 
 
 def _walk(part: Part, prefix: str, place: Location) -> Iterator[tuple[str, Location]]:
-    for key in type(part).model_fields:
+    fields = type(part).model_fields
+    for key in fields:
         child, here, name = getattr(part, key), (*place, key), f"{prefix}{key}"
         if named := _named_parts(name, child):
             if key == "harmonics":
                 yield name, here
             for label, where, item in named:
                 yield from _walk(item, f"{label}.", (*here, where))
-        elif isinstance(part, Wing) and key == "discretisation":
+        elif key == "discretisation" and isinstance(part, Wing):
             yield name, here
             yield from _walk(part.resolved_discretisation, f"{name}.", here)
-        elif isinstance(part, Joint) and key in SIDES:
+        elif key in SIDES and isinstance(part, Joint):
             yield name, here
-            yield from _walk(child or JointSide(), f"{name}.", here)
+            yield from _walk(child or _LIKE_THE_JOINT, f"{name}.", here)
         elif isinstance(child, Part):
-            if type(part).model_fields[key].default is None:  # may be taken off as a whole
+            if fields[key].default is None:  # may be taken off as a whole
                 yield name, here
             yield from _walk(child, f"{name}.", here)
-        elif isinstance(part, Attachment) and key == "position":
+        elif key == "position" and isinstance(part, Attachment):
             yield name, here
             yield from ((f"{name}.{axis}", (*here, i)) for i, axis in enumerate("xyz"))
         # What names lead to, as a joint or a harmonic, is not renamed.
