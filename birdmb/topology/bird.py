@@ -303,14 +303,14 @@ class Bird(Part):
         own = dict(feather.shares)
         names = self.segments.names
         bone = names.index(feather.bone)
-
-        def default(joint: Joint) -> float:
+        shares = []
+        for joint in self.joints:
             carried = names.index(joint.segment)
+            by_default = 1.0 if carried <= bone else 0.0
             if joint.twist and carried == bone:
-                return feather.position
-            return 1.0 if carried <= bone else 0.0
-
-        return tuple(own.get(joint.name, default(joint)) for joint in self.joints)
+                by_default = feather.position
+            shares.append(own.get(joint.name, by_default))
+        return tuple(shares)
 
     # Studies vary one bird many thousand times; finding its names takes as long as all the rest.
     @cached_property
