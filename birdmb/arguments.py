@@ -14,7 +14,17 @@ import types
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import is_dataclass
 from os import PathLike, fspath
-from typing import Any, Literal, NamedTuple, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import (
+    Any,
+    Literal,
+    NamedTuple,
+    TypeAlias,
+    TypeVar,
+    Union,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 
 import numpy as np
 
@@ -22,6 +32,7 @@ from birdmb.errors import ArgumentTypeError
 from birdmb.text import nearest
 
 Checked = TypeVar("Checked", bound=Callable[..., Any])
+_Test: TypeAlias = Callable[[Any], bool]
 
 # What makes an object of a kind, or is one.
 _MADE_BY = {
@@ -68,16 +79,24 @@ def checked(function: Checked) -> Checked:
 
 def _checking(function: Callable[..., Any], annotated: Any) -> Any:
     signature = inspect.signature(function)
+    parameters = signature.parameters
 
+    # Hints are slow to look up by, so each has its test beside it.
     @functools.cache
-    def hints() -> dict[str, Any]:
-        return get_type_hints(annotated)
+    def wanted() -> dict[str, tuple[Any, _Test]]:
+        hints = get_type_hints(annotated)
+        return {name: (hints[name], _test(hints[name])) for name in hints if name in parameters}
 
     @functools.wraps(function)
     def checking(*args: Any, **options: Any) -> Any:
         given = _bound(function, signature, args, options)
+        known = wanted()
         for name, value in given.items():
-            if name in hints() and (problem := _problem(name, hints()[name], value)):
+            if name not in known:
+                continue
+            hint, holds = known[name]
+            if not holds(value):
+                problem = _problem(name, hint, value)
                 raise ArgumentTypeError(f"{_called(function, args)}: {problem}.")
         return function(*args, **options)
 
@@ -112,9 +131,9 @@ def _bound(
 
 def _problem(name: str, hint: Any, value: Any) -> str | None:
     """What is wrong with an argument, without a full stop; `None` if nothing is."""
-    options = _alternatives(hint)
-    if any(_fits(option, value) for option in options):
+    if _test(hint)(value):
         return None
+    options = _alternatives(hint)
     for option in options:
         for part, inner, item in _parts(name, option, value):
             if problem := _problem(part, inner, item):
@@ -139,8 +158,11 @@ def _is_own(member: Any) -> bool:
     return isinstance(member, type) and member.__module__.startswith("birdmb.")
 
 
-def _fits(hint: Any, value: Any) -> bool:
-    return _rule(hint).fits(hint, value)
+@functools.cache
+def _test(hint: Any) -> _Test:
+    """A function of a value: whether it is what is wanted."""
+    tests = [functools.partial(_rule(option).fits, option) for option in _alternatives(hint)]
+    return tests[0] if len(tests) == 1 else lambda value: any(fits(value) for fits in tests)
 
 
 def _kind(hint: Any) -> str:
@@ -217,7 +239,7 @@ class _Pair:
 
 def _fits_container(hint: Any, value: Any) -> bool:
     return _is_container(_origin(hint), value) and all(
-        _problem(part, inner, item) is None for part, inner, item in _parts("", hint, value)
+        _test(inner)(item) for _, inner, item in _parts("", hint, value)
     )
 
 

@@ -5,6 +5,7 @@ Beside `birdmb.aerodynamics.prescribed`, whose wings these are.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -28,7 +29,7 @@ from birdmb.aerodynamics.unsteady_circulation import (
     unsteady_circulations,
 )
 from birdmb.aerodynamics.unsteady_loads import SideFlow, side_flow, side_wrenches
-from birdmb.aerodynamics.wake_lags import WakeLags
+from birdmb.aerodynamics.wake_lags import WakeLags, no_wake_lags
 from birdmb.wing.stacked import NearShapes, shape_at
 
 
@@ -44,9 +45,11 @@ class LagTable(NamedTuple):
     lags: WakeLags
 
 
-def no_lags(lags: WakeLags) -> LagTable:
-    """The table of a wing whose air has no memory: of no phase."""
-    return _empty(0, lags.spread.shape[0], 1, lags)
+# Arrays without elements cannot change: models share them.
+@lru_cache(maxsize=64)
+def no_lags(elements: int) -> LagTable:
+    """The table of a wing of so many elements whose air has no memory: of no phase."""
+    return _empty(0, elements, 1, no_wake_lags(elements))
 
 
 def every_second_lag(table: LagTable) -> LagTable:

@@ -23,6 +23,7 @@ the steady state of which is the steady lifting line.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -53,6 +54,8 @@ class WakeLags(NamedTuple):
     separation: SeparationCurves
 
 
+# Arrays without elements cannot change: models share them.
+@lru_cache(maxsize=64)
 def no_wake_lags(elements: int) -> WakeLags:
     """The lags about a wing of so many elements in air without a memory: none."""
     return WakeLags(np.empty(0, np.int64), np.empty((elements, 0)), attached_flow(elements))

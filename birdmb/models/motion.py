@@ -58,12 +58,12 @@ class Motion:
         """Components of the twist (6,) that are states."""
         return self.indices[self.indices < _TWIST]
 
-    @property
+    @cached_property
     def units(self) -> tuple[str, ...]:
         """Units of the states."""
         return tuple(_UNITS[i] for i in self.indices)
 
-    @property
+    @cached_property
     def scale(self) -> tuple[float, ...]:
         """Typical sizes of the states."""
         return tuple(_SCALE[i] for i in self.indices)
@@ -111,7 +111,10 @@ def heading_velocity(space: FloatArray) -> FloatArray:
 
 def planar_velocity(states: FloatArray) -> FloatArray:
     """Forward speed and climb rate (K, 2) m/s of states (K, n) in planar motion."""
-    return heading_velocity(PLANAR.in_space(states))[:, [0, 2]]
+    # As `heading_velocity`, whose other states are zero.
+    u, w, _, theta = states[:, : len(PLANAR.states)].T
+    c, s = np.cos(theta), np.sin(theta)
+    return np.array([c * u + s * w, s * u - c * w]).T
 
 
 def heading_rate(space: FloatArray) -> FloatArray:
@@ -143,4 +146,4 @@ def _heading_in_body(space: FloatArray) -> FloatArray:
     phi, theta = space[:, [_PHI, _THETA]].T
     c, s, cr, sr = np.cos(theta), np.sin(theta), np.cos(phi), np.sin(phi)
     rows = [[c, 0.0 * c, -s], [s * sr, cr, c * sr], [s * cr, -sr, c * cr]]
-    return np.moveaxis(np.array(rows), 2, 0)
+    return np.array(rows).transpose(2, 0, 1)

@@ -336,7 +336,7 @@ class RigidModel(BirdModel):
         """What the lags of air that remembers need."""
         lags = self.wake.lags
         if not self.wake.count:
-            return no_lags(lags)
+            return no_lags(len(lags.spread))
         near = self._near_shapes(self.wing, times, right)
         near_left = near if left is right else self._near_shapes(self.left_wing, times, left)
         return lag_table(right, left, near, near_left, lags, self.is_mirrored, self.aero.density)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -38,16 +39,16 @@ class WakeStates:
         """Whether attached shares of the chord are among the states."""
         return bool(self.lags.separation.of.size)
 
-    @property
+    @cached_property
     def _kinds(self) -> tuple[str, ...]:
         return (*KINDS, _SHARE) if self.separates else KINDS
 
-    @property
+    @cached_property
     def count(self) -> int:
         """Number of the states."""
         return self.sides * len(self._kinds) * self.lags.kept.size
 
-    @property
+    @cached_property
     def names(self) -> tuple[str, ...]:
         """Names of the states, as `wake.bound_slow.1`, the points counted from the root."""
         points = range(1, self.lags.kept.size + 1)
@@ -56,7 +57,7 @@ class WakeStates:
             names = [f"{name}.{side}" for side in SIDES for name in names]
         return tuple(names)
 
-    @property
+    @cached_property
     def units(self) -> tuple[str, ...]:
         """Units of the states."""
         units = (*UNITS, _OF_SHARE) if self.separates else UNITS
@@ -72,7 +73,7 @@ class WakeStates:
         """States (K,) of still air about wings whose flow is attached."""
         return (np.array(self.units) == _OF_SHARE).astype(float)
 
-    @property
+    @cached_property
     def scale(self) -> tuple[float, ...]:
         """Typical sizes of the states."""
         return tuple(_SCALE[unit] for unit in self.units)

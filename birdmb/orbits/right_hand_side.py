@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -48,6 +48,18 @@ def batched_rates(model: HasRates | HasRhs) -> Batched:
     )
 
 
+# Protocols are slow to check, and one class of models has right-hand sides by the thousand.
+@lru_cache
+def _class_has(kind: type, protocol: Any) -> bool:
+    return issubclass(kind, protocol)
+
+
+def _has(model: object, protocol: Any) -> bool:
+    """Whether a model has the methods of a protocol, by its class or by itself."""
+    kind: Any = type(model)
+    return _class_has(kind, protocol) or isinstance(model, protocol)
+
+
 @dataclass(frozen=True)
 class RightHandSide:
     """Scaled rates f(t, y) of a model, with y = x / scale, at K instants in one call.
@@ -64,24 +76,24 @@ class RightHandSide:
 
     def __post_init__(self) -> None:
         """Tell the model the scale."""
-        if isinstance(self.model, Scalable):
+        if hasattr(self.model, "scaled_to") and isinstance(self.model, Scalable):
             object.__setattr__(self, "model", self.model.scaled_to(self.scale))
 
     @cached_property
     def has_derivative(self) -> bool:
         """Whether derivatives are the model's own."""
-        able = isinstance(self.model, HasRateJacobians | HasJacobian)
+        able = _has(self.model, HasRateJacobians) or _has(self.model, HasJacobian)
         return able and not self.by_differences
 
-    # Protocols are slow to check, and rates are asked for often.
     @cached_property
     def _rates(self) -> Batched:
-        return batched_rates(self.model)
+        model = self.model
+        return model.rates if _has(model, HasRates) else batched_rates(model)
 
     @cached_property
     def _jacobians(self) -> Batched:
         model = self.model
-        if isinstance(model, HasRateJacobians):
+        if _has(model, HasRateJacobians):
             return model.rate_jacobians
         assert isinstance(model, HasJacobian)
         jacobian = model.jacobian

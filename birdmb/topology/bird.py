@@ -92,8 +92,9 @@ class Bird(Part):
     def _chain(cls, joints: NamedParts[Joint], info: ValidationInfo) -> NamedParts[Joint]:
         if twice := first_repeated(joint.name for joint in joints):
             raise problem(f"two joints are called {shown(twice)}; each needs a name of its own")
+        tables = cls.model_fields
         for joint in joints:
-            if (place := joint.name.partition(".")[0]) in cls.model_fields:
+            if (place := joint.name.partition(".")[0]) in tables:
                 raise problem(
                     f"{shown(joint.name)} must not start with {place}, a table of the file"
                 )
@@ -165,12 +166,12 @@ class Bird(Part):
 
     @model_validator(mode="after")
     def _shares_are_of_joints(self) -> Self:
+        known = self.joint_names
         for i, feather in enumerate(self.feathers):
             for joint, _ in feather.shares:
-                if joint not in self.joint_names:
+                if joint not in known:
                     raise problem(
-                        f"no joint is called {shown(joint)}; "
-                        f"the nearest: {nearest(joint, self.joint_names)}",
+                        f"no joint is called {shown(joint)}; the nearest: {nearest(joint, known)}",
                         "feathers",
                         i,
                         "shares",
@@ -302,14 +303,14 @@ class Bird(Part):
         own = dict(feather.shares)
         names = self.segments.names
         bone = names.index(feather.bone)
-
-        def default(joint: Joint) -> float:
+        shares = []
+        for joint in self.joints:
             carried = names.index(joint.segment)
+            by_default = 1.0 if carried <= bone else 0.0
             if joint.twist and carried == bone:
-                return feather.position
-            return 1.0 if carried <= bone else 0.0
-
-        return tuple(own.get(joint.name, default(joint)) for joint in self.joints)
+                by_default = feather.position
+            shares.append(own.get(joint.name, by_default))
+        return tuple(shares)
 
     # Studies vary one bird many thousand times; finding its names takes as long as all the rest.
     @cached_property
@@ -338,11 +339,18 @@ class Bird(Part):
         given too; without a damping it gets none. Raises `TopologyError` for an unknown name or a
         value that a file must not have either.
         """
-        # Defaults are left out where they must follow a change, as the mid-bone follows the length.
-        document = self._document(resolved=any(map(is_resolution, values)), exclude_unset=True)
+        # Defaults are left out where they must follow a change, as the mid-bone follows the length;
+        # parts that do not change stay as they are, for studies vary one bird many thousand times.
+        document: dict[str, Any] = {key: part for key, part in self if key in self.model_fields_set}
+        if any(map(is_resolution, values)):
+            document["wing"] = self._resolved(self.wing.model_dump(exclude_unset=True))
         put_values(document, values, self._places, self.name)
-        changed = ", ".join(f"{name} = {shown(value)}" for name, value in values.items())
-        return validated(type(self), document, f"{self.name} (with {changed})")
+
+        def origin() -> str:
+            changed = ", ".join(f"{name} = {shown(value)}" for name, value in values.items())
+            return f"{self.name} (with {changed})"
+
+        return validated(type(self), document, origin)
 
     @checked
     def with_joint(self, name: str, **values: Any) -> Bird:
@@ -394,5 +402,9 @@ class Bird(Part):
         """What `model_dump` returns; `resolved` with the numbers of the discretisation's preset."""
         document = self.model_dump(**options)
         if resolved:
-            document["wing"]["discretisation"] = self.wing.resolved_discretisation.model_dump()
+            document["wing"] = self._resolved(document["wing"])
         return document
+
+    def _resolved(self, wing: dict[str, Any]) -> dict[str, Any]:
+        """The wing's table with the numbers of the discretisation's preset."""
+        return {**wing, "discretisation": self.wing.resolved_discretisation.model_dump()}

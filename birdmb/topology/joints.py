@@ -207,8 +207,9 @@ class Joint(Part):
     @model_serializer(mode="wrap")
     def _without_empty(self, dump: SerializerFunctionWrapHandler) -> dict[str, Any]:
         table: dict[str, Any] = dump(self)
+        known = type(self).model_fields
         for key in _SELDOM_GIVEN:
-            if getattr(self, key) == type(self).model_fields[key].default:
+            if getattr(self, key) == known[key].default:
                 table.pop(key, None)
         # A side that is given no value is as none.
         for side in SIDES:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any, TypeVar, get_args
 
 from pydantic import BaseModel, RootModel, ValidationError
@@ -64,11 +64,13 @@ def shown(value: object) -> str:
     return text if len(text) <= 80 else text[:77] + "..."
 
 
-def validated(model: type[ModelT], document: Mapping[str, Any], origin: str) -> ModelT:
-    """Return `document` as a valid `model`.
+def validated(
+    model: type[ModelT], document: Mapping[str, Any], origin: str | Callable[[], str]
+) -> ModelT:
+    """Return `document`, in which models may stand for tables, as a valid `model`.
 
     Raises `TopologyError`, starting with `origin` (a file, say), for the problem that stands first
-    in the document.
+    in the document. An `origin` that takes time to tell may be a function.
     """
     try:
         return model.model_validate(document)
@@ -87,7 +89,8 @@ def validated(model: type[ModelT], document: Mapping[str, Any], origin: str) -> 
     given = detail["input"]
     if any(str(part).endswith("_deg") for part in location):
         given = _at(location, document)
-    raise TopologyError(f"{origin}: {key}: {_explanation(model, location, detail, given)}{more}")
+    told = origin if isinstance(origin, str) else origin()
+    raise TopologyError(f"{told}: {key}: {_explanation(model, location, detail, given)}{more}")
 
 
 def _explanation(
@@ -138,6 +141,8 @@ def _at(location: Location, document: object) -> object:
 def _inside(document: object, part: str | int) -> object:
     if isinstance(document, Mapping):
         return document.get(part)
+    if isinstance(document, BaseModel) and isinstance(part, str):
+        return getattr(document, part, None)
     if isinstance(document, list | tuple) and isinstance(part, int) and part < len(document):
         return document[part]
     return None

@@ -20,6 +20,7 @@ from birdmb.topology.segments import Segments
 from birdmb.topology.wings import Wing
 
 _RESOLUTION = "wing.discretisation"
+_LIKE_THE_JOINT = JointSide()
 
 
 def parse_assignment(text: str) -> tuple[str, Any]:
@@ -52,24 +53,25 @@ def named_places(bird: Part) -> dict[str, Location]:
 
 
 def _walk(part: Part, prefix: str, place: Location) -> Iterator[tuple[str, Location]]:
-    for key in type(part).model_fields:
+    fields = type(part).model_fields
+    for key in fields:
         child, here, name = getattr(part, key), (*place, key), f"{prefix}{key}"
         if named := _named_parts(name, child):
             if key == "harmonics":
                 yield name, here
             for label, where, item in named:
                 yield from _walk(item, f"{label}.", (*here, where))
-        elif isinstance(part, Wing) and key == "discretisation":
+        elif key == "discretisation" and isinstance(part, Wing):
             yield name, here
             yield from _walk(part.resolved_discretisation, f"{name}.", here)
-        elif isinstance(part, Joint) and key in SIDES:
+        elif key in SIDES and isinstance(part, Joint):
             yield name, here
-            yield from _walk(child or JointSide(), f"{name}.", here)
+            yield from _walk(child or _LIKE_THE_JOINT, f"{name}.", here)
         elif isinstance(child, Part):
-            if type(part).model_fields[key].default is None:  # may be taken off as a whole
+            if fields[key].default is None:  # may be taken off as a whole
                 yield name, here
             yield from _walk(child, f"{name}.", here)
-        elif isinstance(part, Attachment) and key == "position":
+        elif key == "position" and isinstance(part, Attachment):
             yield name, here
             yield from ((f"{name}.{axis}", (*here, i)) for i, axis in enumerate("xyz"))
         # What names lead to, as a joint or a harmonic, is not renamed.
@@ -152,6 +154,8 @@ def put_values(
 ) -> None:
     """Put other values into a bird's document, under the dotted names `known`.
 
+    In place of tables may stand parts of a bird; those that change become tables.
+
     Raises:
         TopologyError: a name is unknown, or set as a whole and in parts; `owner` is whose.
     """
@@ -166,8 +170,7 @@ def put_values(
         table: Any = document
         for part in parents:
             inside = table[part] if isinstance(part, int) else table.setdefault(part, {})
-            if isinstance(key, int) and isinstance(inside, tuple):  # one number of a list
-                inside = table[part] = list(inside)
+            table[part] = inside = _open_to_change(inside)
             table = inside
         if isinstance(key, str):
             table.pop(_other_unit(key), None)
@@ -175,7 +178,17 @@ def put_values(
     for table, key, value in changes:
         table[key] = value.tolist() if isinstance(value, np.ndarray | np.generic) else value
     for joint in document["joints"]:
-        _free_if_sprung(joint, values)
+        if not isinstance(joint, Joint):  # of which nothing is given
+            _free_if_sprung(joint, values)
+
+
+def _open_to_change(inside: Any) -> Any:
+    """A part as a table without its defaults, several parts or numbers as such; else itself."""
+    if isinstance(inside, Segments):
+        return dict(inside.items())
+    if isinstance(inside, Part):
+        return inside.model_dump(exclude_unset=True)
+    return list(inside) if isinstance(inside, tuple) else inside
 
 
 def is_resolution(name: str) -> bool:
