@@ -20,7 +20,7 @@ _BALANCED = 1e-12  # (m/s2)^2
 _IN_PROPORTION = 1e60  # m/s2, and per m/s; its square and sums of it are finite
 _NEWTON_STEPS = 20
 _SMALLEST_DAMPING = 0.1
-_SETTLED = 1e-8  # (m/s2)^2; it is to guess from
+_SETTLED = 1e-16  # (m/s2)^2
 
 
 def mean_trim(bird: Bird, wing: PrescribedWing, aero: AeroConstants) -> FloatArray:
