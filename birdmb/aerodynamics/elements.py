@@ -48,12 +48,12 @@ class Elements(NamedTuple):
 def place_elements(shape: WingShape, root: FloatArray) -> Elements:
     """Elements of a shape in body axes hung up at `root` (3,) m from G."""
     n = shape.chord.size
-    position = shape.line[0::2] + root
-    node = np.empty((n + 1, 3))
-    node[0] = position[0]
-    node[0, 1] = 0.0
-    node[1:] = shape.line[1::2] + root
-    width = np.empty(n)
+    position, node, width = np.empty((n, 3)), np.empty((n + 1, 3)), np.empty(n)
+    for e in range(n):
+        for i in range(3):
+            position[e, i] = shape.line[2 * e, i] + root[i]
+            node[e + 1, i] = shape.line[2 * e + 1, i] + root[i]
+    node[0, 0], node[0, 1], node[0, 2] = position[0, 0], 0.0, position[0, 2]
     for e in range(n):
         dx = node[e + 1, 0] - node[e, 0]
         dy = node[e + 1, 1] - node[e, 1]
@@ -130,28 +130,30 @@ def add_wake(
     bound vortices' influence on each other is neglected, as published.
     """
     n = position.shape[0]
+    node_y, node_z = node[:, 1].copy(), node[:, 2].copy()
+    # Per unit strength backwards, that of the left wing's image being opposite if even.
+    vy, vz = np.zeros(n + 1), np.zeros(n + 1)
+    of_own, of_image = 0.25 / np.pi * own, 0.25 / np.pi * image
     for i in range(n):
-        for k in range(first, n + 1):
-            rz = position[i, 2] - node[k, 2]
-            ry = position[i, 1] - node[k, 1]
-            ry_mirror = position[i, 1] + node[k, 1]
-            square = ry * ry + rz * rz
-            square_mirror = ry_mirror * ry_mirror + rz * rz
-            # On a filament itself, where the line runs along the stream: see `clearance`. That of
-            # the centre line moves no air at itself.
-            itself = 0.0 if k == 0 else np.nan
-            near = own * 0.25 / (np.pi * square) if square > 0.0 else own * itself
-            far = image * 0.25 / (np.pi * square_mirror) if square_mirror > 0.0 else image * itself
-            # Per unit strength backwards, that of the left wing's image being opposite if even.
-            vy = rz * (near - far)
-            vz = ry_mirror * far - ry * near
-            # Node k sheds the circulation inboard of it minus the one outboard of it.
-            if k < n:
-                induced_y[i, k] -= vy
-                induced_z[i, k] -= vz
-            if k > 0:
-                induced_y[i, k - 1] += vy
-                induced_z[i, k - 1] += vz
+        y, z = position[i, 1], position[i, 2]
+        # From the first node in any case: a loop that may begin anywhere takes twice as long.
+        for k in range(n + 1):
+            ry, ry_mirror, rz = y - node_y[k], y + node_y[k], z - node_z[k]
+            # Numpy's division makes NaN on a filament itself, where the line runs along the stream:
+            # see `clearance`. Python's would look for zeros, and work at one node after another.
+            near = np.divide(of_own, ry * ry + rz * rz)
+            far = np.divide(of_image, ry_mirror * ry_mirror + rz * rz)
+            vy[k] = rz * (near - far)
+            vz[k] = ry_mirror * far - ry * near
+        if y == node_y[0] == 0.0 and z == node_z[0]:
+            # The filament of the centre line moves no air at itself.
+            vy[0] = vz[0] = 0.0
+        for k in range(first):
+            vy[k] = vz[k] = 0.0
+        # Each node sheds the circulation inboard of it minus the one outboard of it.
+        for e in range(n):
+            induced_y[i, e] += vy[e + 1] - vy[e]
+            induced_z[i, e] += vz[e + 1] - vz[e]
 
 
 @kernel

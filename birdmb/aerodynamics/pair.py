@@ -19,7 +19,7 @@ from birdmb.aerodynamics.elements import (
     circulation_system,
     downwash_share,
 )
-from birdmb.aerodynamics.twist_loads import Flow, element_wrenches, mirrored, wing_flow
+from birdmb.aerodynamics.twist_loads import Flow, element_wrenches, mirror_sign, mirrored, wing_flow
 
 
 class PairSystem(NamedTuple):
@@ -126,7 +126,8 @@ def _loads(
 @kernel
 def pair_wrench(of_right: FloatArray, of_left: FloatArray) -> FloatArray:
     """Wrench (6, 1 + d) of both wings, that of the left one given mirrored."""
-    total = of_right + of_left
-    for component in (1, 3, 5):
-        total[component] = of_right[component] - of_left[component]
+    total = np.empty(of_right.shape)
+    for i in range(6):
+        for m in range(of_right.shape[1]):
+            total[i, m] = of_right[i, m] + mirror_sign(i) * of_left[i, m]
     return total

@@ -23,7 +23,7 @@ from birdmb.aerodynamics.twist_loads import (
     wing_wrench,
 )
 from birdmb.aerodynamics.wake_lags import WakeLags
-from birdmb.models.placed_wing import PlacedWing, place_wing, spin_of
+from birdmb.models.placed_wing import PlacedWing, place_wing, spin_of, swung
 from birdmb.models.springs import Springs
 from birdmb.models.tree_kernel import TreeLinks
 from birdmb.models.unsteady_kernel import air_inertia, unsteady_rows
@@ -108,7 +108,9 @@ def air_forces(
     left = right
     if not is_mirrored:
         left = _at_rest(constants, shapes.stacks[1].now, shapes.of[1, rows[0]], angles[joints:])
-    found.clearance[0], found.clearance[1] = clearance(right.elements), clearance(left.elements)
+    found.clearance[:] = clearance(right.elements)
+    if not is_mirrored:
+        found.clearance[1] = clearance(left.elements)
     if not (found.clearance >= 0.0).all():
         return found
     n = right.elements.chord.size
@@ -265,18 +267,15 @@ def _meet(
     The circulations (N, R) m2/s without downwash and the winds (R, N, 3, 1) m/s of a body that
     moves with these `twists` (R, 6).
     """
-    root, position = constants.joints.root, placed.elements.position
-    no_derivatives, turn = np.empty(0, np.int64), np.ascontiguousarray(placed.axes.T)
+    root, no_derivatives = constants.joints.root, np.empty(0, np.int64)
     for r in range(len(rates)):
         spin = spin_of(placed.chain, constants.rigid_joint_count, rates[r])
-        velocity = velocity_at(shapes, s, rates[r]) @ turn
-        for e in range(position.shape[0]):
-            x, y, z = position[e, 0] - root[0], position[e, 1] - root[1], position[e, 2] - root[2]
-            velocity[e, 0] += spin[1] * z - spin[2] * y
-            velocity[e, 1] += spin[2] * x - spin[0] * z
-            velocity[e, 2] += spin[0] * y - spin[1] * x
+        velocity = swung(velocity_at(shapes, s, rates[r]), placed, root, spin)
         flow = wing_flow(placed.elements, velocity, twists[r], no_derivatives)
-        bound[:, r], winds[r] = flow.bound[:, 0], flow.wind
+        for e in range(len(bound)):
+            bound[e, r] = flow.bound[e, 0]
+            for i in range(3):
+                winds[r, e, i, 0] = flow.wind[e, i, 0]
 
 
 @kernel

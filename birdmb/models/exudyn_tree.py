@@ -161,6 +161,9 @@ def tree_links(bird: Bird, body_coordinates: IntArray, *, is_mirrored: bool) -> 
         mass=np.array([link.mass for link in wings], dtype=float),
         centre=np.array([link.centre for link in wings]).reshape(-1, 3),
         inertia=np.array([link.inertia for link in wings]).reshape(-1, 3, 3),
+        weighs=np.array(
+            [link.mass > 0.0 or bool(link.inertia.any()) for link in wings], dtype=bool
+        ),
         copies=2.0 if is_mirrored else 1.0,
         body_mass=body.mass,
         body_inertia=to_body @ body.inertia @ to_body.T,

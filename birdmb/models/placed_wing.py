@@ -12,7 +12,7 @@ from birdmb.aerodynamics.elements import Elements, place_elements
 from birdmb.aerodynamics.joints import twist_per_joint_rate
 from birdmb.wing.arrays import JointArrays
 from birdmb.wing.chain import Chain, joint_chain
-from birdmb.wing.shape import WingShape, turned
+from birdmb.wing.shape import WingShape, turned, turned_rows
 
 
 class PlacedWing(NamedTuple):
@@ -40,12 +40,11 @@ def place_wing(
     axes = chain.frame[rigid_joint_count]
     placed = turned(shape, axes, spin_of(chain, rigid_joint_count, rates))
     elements = place_elements(placed, joints.root)
-    per_rate = np.empty((joints.angle_count, elements.chord.size, 6))
-    per_rate[: joints.segment.size] = twist_per_joint_rate(
+    per_rate = twist_per_joint_rate(
         joints.root, joints.segment, chain, elements.position, placed.distal_fraction
     )
     if joints.segment.size < joints.angle_count:
-        per_rate[joints.segment.size :] = placed.hinge_twist
+        per_rate = np.concatenate((per_rate, placed.hinge_twist))
     return PlacedWing(chain, axes, elements, per_rate)
 
 
@@ -54,8 +53,28 @@ def spin_of(chain: Chain, rigid_joint_count: int, rates: FloatArray) -> FloatArr
     """Angular velocity (3,) rad/s that the first joints give to the wing as a whole."""
     spin = np.zeros(3)
     for j in range(rigid_joint_count):
-        spin += rates[j] * chain.axis[j]
+        for i in range(3):
+            spin[i] += rates[j] * chain.axis[j, i]
     return spin
+
+
+@kernel
+def swung(
+    velocity: FloatArray, placed: PlacedWing, root: FloatArray, spin: FloatArray
+) -> FloatArray:
+    """Velocities (N, 3) m/s of a placed wing's control points relative to the body.
+
+    `velocity` (N, 3) m/s are those within the wing, in its own axes, that turn at `spin` (3,) rad/s
+    about the `root` (3,) m.
+    """
+    swung, position = turned_rows(velocity, placed.axes), placed.elements.position
+    sx, sy, sz = spin[0], spin[1], spin[2]
+    for e in range(len(swung)):
+        x, y, z = position[e, 0] - root[0], position[e, 1] - root[1], position[e, 2] - root[2]
+        swung[e, 0] += sy * z - sz * y
+        swung[e, 1] += sz * x - sx * z
+        swung[e, 2] += sx * y - sy * x
+    return swung
 
 
 @kernel
@@ -70,5 +89,7 @@ def spin_change(
         change[0] += rates[j] * (spin[1] * z - spin[2] * y) + accelerations[j] * x
         change[1] += rates[j] * (spin[2] * x - spin[0] * z) + accelerations[j] * y
         change[2] += rates[j] * (spin[0] * y - spin[1] * x) + accelerations[j] * z
-        spin += rates[j] * chain.axis[j]
+        spin[0] += rates[j] * x
+        spin[1] += rates[j] * y
+        spin[2] += rates[j] * z
     return change

@@ -43,22 +43,25 @@ def free_accelerations(
         placed = placed_links(links, angles)
         mass = mass_matrix(links, placed)
         matrix, right = np.empty((free.size, free.size)), np.empty((free.size, rows.size))
+        driven = np.zeros(free.size)
         for a in range(free.size):
             for b in range(free.size):
                 matrix[a, b] = mass[free[a], free[b]] + loads.inertia[free[a], free[b]]
+            for j in range(body, size):
+                if prescribed[j]:
+                    driven[a] += mass[free[a], j] * drivers.accelerations[t, j - body]
         for r in range(rows.size):
             k = rows[r]
             rates = motion.rates[k]
             left = bias_forces(links, placed, rates, motion.twist[k, 3:], motion.gravity[k])
-            left -= loads.forces[r]
-            left[body:] -= links.copies * spring_torques(
+            torques = spring_torques(
                 constants.springs, angles - drivers.angles[t], rates - drivers.rates[t]
             )
-            for j in range(body, size):
-                if prescribed[j]:
-                    left += mass[j] * drivers.accelerations[t, j - body]
             for a in range(free.size):
-                right[a, r] = -left[free[a]]
+                j = free[a]
+                right[a, r] = loads.forces[r, j] - left[j] - driven[a]
+                if j >= body:
+                    right[a, r] += links.copies * torques[j - body]
         solved = np.linalg.solve(matrix, right)
         for r in range(rows.size):
             found[rows[r]] = solved[:, r]

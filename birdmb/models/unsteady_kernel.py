@@ -21,7 +21,7 @@ from birdmb.aerodynamics.twist_loads import mirror_sign, mirrored
 from birdmb.aerodynamics.unsteady_circulation import lag_system, unsteady_circulations
 from birdmb.aerodynamics.unsteady_loads import SideFlow, side_flow, side_wrenches
 from birdmb.aerodynamics.wake_lags import WakeLags
-from birdmb.models.placed_wing import PlacedWing, spin_change, spin_of
+from birdmb.models.placed_wing import PlacedWing, spin_change, spin_of, swung
 from birdmb.wing.arrays import JointArrays
 from birdmb.wing.stacked import NearShapes, shape_at
 
@@ -147,14 +147,7 @@ def _met(
     now = shape_at(shapes.now, s)
     own = section_motion(shape_at(shapes.before, s), now, shape_at(shapes.after, s), shapes.step)
     motion: SectionMotion = turned_sections(own, elements, root, placed.axes, spin, change)
-    velocity = now.velocity @ np.ascontiguousarray(placed.axes.T)
-    for e in range(elements.chord.size):
-        x = elements.position[e, 0] - root[0]
-        y = elements.position[e, 1] - root[1]
-        z = elements.position[e, 2] - root[2]
-        velocity[e, 0] += spin[1] * z - spin[2] * y
-        velocity[e, 1] += spin[2] * x - spin[0] * z
-        velocity[e, 2] += spin[0] * y - spin[1] * x
+    velocity = swung(now.velocity, placed, root, spin)
     no_derivatives = np.empty(0, np.int64)
     flow = side_flow(elements, velocity, motion, air, twist, no_derivatives, False)
     return flow, velocity

@@ -250,34 +250,49 @@ def _assemble(
 
 
 @kernel
+def turned_rows(vectors: FloatArray, R: FloatArray) -> FloatArray:
+    """Vectors (n, 3) as seen from axes in which their own axes are `R` (3, 3)."""
+    # Libraries for products of matrices take several times as long for so few numbers.
+    turned = np.empty(vectors.shape)
+    xx, xy, xz = R[0, 0], R[0, 1], R[0, 2]
+    yx, yy, yz = R[1, 0], R[1, 1], R[1, 2]
+    zx, zy, zz = R[2, 0], R[2, 1], R[2, 2]
+    for k in range(len(vectors)):
+        x, y, z = vectors[k, 0], vectors[k, 1], vectors[k, 2]
+        turned[k, 0] = xx * x + xy * y + xz * z
+        turned[k, 1] = yx * x + yy * y + yz * z
+        turned[k, 2] = zx * x + zy * y + zz * z
+    return turned
+
+
+@kernel
 def turned(shape: WingShape, R: FloatArray, spin: FloatArray) -> WingShape:
     """The shape seen from axes in which its own axes are `R` (3, 3) and turn at `spin` (3,) rad/s.
 
     `spin` is given in the new axes and acts about the shoulder.
     """
-    line = shape.line @ R.T
-    velocity = shape.velocity @ R.T
-    chord_rate = shape.chord_rate @ R.T
-    chord_direction = shape.chord_direction @ R.T
+    line, velocity = turned_rows(shape.line, R), turned_rows(shape.velocity, R)
+    chord_rate = turned_rows(shape.chord_rate, R)
+    chord_direction = turned_rows(shape.chord_direction, R)
+    sx, sy, sz = spin[0], spin[1], spin[2]
     for e in range(velocity.shape[0]):
-        p = line[2 * e]
-        velocity[e, 0] += spin[1] * p[2] - spin[2] * p[1]
-        velocity[e, 1] += spin[2] * p[0] - spin[0] * p[2]
-        velocity[e, 2] += spin[0] * p[1] - spin[1] * p[0]
-        c, size = chord_direction[e], shape.chord[e]
-        chord_rate[e, 0] += size * (spin[1] * c[2] - spin[2] * c[1])
-        chord_rate[e, 1] += size * (spin[2] * c[0] - spin[0] * c[2])
-        chord_rate[e, 2] += size * (spin[0] * c[1] - spin[1] * c[0])
-    hinge_twist = np.empty_like(shape.hinge_twist)
-    for h in range(hinge_twist.shape[0]):
-        hinge_twist[h, :, :3] = np.ascontiguousarray(shape.hinge_twist[h, :, :3]) @ R.T
-        hinge_twist[h, :, 3:] = np.ascontiguousarray(shape.hinge_twist[h, :, 3:]) @ R.T
+        x, y, z = line[2 * e, 0], line[2 * e, 1], line[2 * e, 2]
+        velocity[e, 0] += sy * z - sz * y
+        velocity[e, 1] += sz * x - sx * z
+        velocity[e, 2] += sx * y - sy * x
+        x, y, z = chord_direction[e, 0], chord_direction[e, 1], chord_direction[e, 2]
+        size = shape.chord[e]
+        chord_rate[e, 0] += size * (sy * z - sz * y)
+        chord_rate[e, 1] += size * (sz * x - sx * z)
+        chord_rate[e, 2] += size * (sx * y - sy * x)
+    twists = np.ascontiguousarray(shape.hinge_twist)
+    hinge_twist = turned_rows(twists.reshape(-1, 3), R).reshape(twists.shape)
     return WingShape(
         line,
         velocity,
         chord_direction,
-        shape.normal @ R.T,
-        shape.span_direction @ R.T,
+        turned_rows(shape.normal, R),
+        turned_rows(shape.span_direction, R),
         shape.chord,
         shape.profile,
         shape.distal_fraction,

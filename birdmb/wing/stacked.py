@@ -151,11 +151,17 @@ def velocity_at(stack: StackedShapes, k: int, rates: FloatArray) -> FloatArray:
 
     Exact, for velocities are linear in the rates.
     """
-    velocity = stack.velocity[k].copy()
+    # Written out: numba's copies of slices take longer than all that is done with them here.
+    velocity = np.empty(stack.velocity.shape[1:])
+    for e in range(len(velocity)):
+        for i in range(3):
+            velocity[e, i] = stack.velocity[k, e, i]
     for m in range(stack.singly.size):
         more = rates[stack.singly[m]] - stack.rates[k, m]
         if more != 0.0:
-            velocity += more * stack.velocity_per_rate[k, m]
+            for e in range(len(velocity)):
+                for i in range(3):
+                    velocity[e, i] += more * stack.velocity_per_rate[k, m, e, i]
     return velocity
 
 
