@@ -92,10 +92,11 @@ def airframe_loads(
             total[4, m] = tail.z * fx - tail.x * fz
             total[5, m] = tail.x * fy
     by_velocity = body_loads(aero, twist[:3])
-    total[:, 0] += by_velocity[:, 0]
-    for m in range(directions.size):
-        if directions[m] < 3:
-            total[:, m + 1] += by_velocity[:, directions[m] + 1]
+    for i in range(6):
+        total[i, 0] += by_velocity[i, 0]
+        for m in range(directions.size):
+            if directions[m] < 3:
+                total[i, m + 1] += by_velocity[i, directions[m] + 1]
     return total
 
 

@@ -204,8 +204,9 @@ def symmetric_loads(
         aero.profile_drag,
     )
     wrench = wing_wrench(elements.position, wrenches)
-    total = pair_wrench(wrench, wrench)
-    return total + airframe_loads(aero, wing.at_tail[k] @ circulation, twist, directions)
+    total = airframe_loads(aero, wing.at_tail[k] @ circulation, twist, directions)
+    total += pair_wrench(wrench, wrench)
+    return total
 
 
 @kernel

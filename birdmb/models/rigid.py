@@ -299,16 +299,17 @@ class RigidModel(BirdModel):
             phase = np.minimum(np.searchsorted(known, times), known.size - 1)
             if (known[phase] == times).all():
                 return table, phase
-        table, phase = self._table_for(times)
-        self._latest = np.unique(times), table
-        return table, phase
+        return self._table_for(times)
 
     def _table_for(self, times: FloatArray) -> tuple[RigidTable, IntArray]:
         """The wing at the distinct ones of `times` (K,), and which of them each is; kept too."""
         if (times[1:] > times[:-1]).all():
-            return self._kept(times.tobytes(), times), np.arange(times.size)
-        distinct, phase = np.unique(times, return_inverse=True)
-        return self._kept(distinct.tobytes(), distinct), phase
+            distinct, phase = times.copy(), np.arange(times.size)
+        else:
+            distinct, phase = np.unique(times, return_inverse=True)
+        table = self._kept(distinct.tobytes(), distinct)
+        self._latest = distinct, table
+        return table, phase
 
     def _kept(self, key: tuple[float, float, int] | bytes, times: FloatArray) -> RigidTable:
         table = self._tables.get(key)

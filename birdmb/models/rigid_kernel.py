@@ -89,9 +89,10 @@ def rigid_rates(
         x[body.states[i]] = states[i]
     turn = np.empty((3, 3, 3))
     _turn(x[_PHI], x[_THETA], turn)
-    twist = x[:6].copy()
+    twist = np.empty(6)
     wx, wy, wz = _times(turn[0], air[0], air[1], air[2])
-    twist[0], twist[1], twist[2] = twist[0] - wx, twist[1] - wy, twist[2] - wz
+    twist[0], twist[1], twist[2] = x[0] - wx, x[1] - wy, x[2] - wz
+    twist[3], twist[4], twist[5] = x[3], x[4], x[5]
     directions = body.directions if slopes_wanted else body.directions[:0]
     lag_rates = np.empty((0, 1))
     if count > 0:
@@ -102,7 +103,9 @@ def rigid_rates(
         found = free_loads(wing, left, wakes, k, aero, twist, directions)
     else:
         found = symmetric_loads(wing, k, aero, twist, directions)
-    wrench, slopes = found[:, 0].copy(), _by_state(found, directions, turn, air, count)
+    wrench, slopes = np.empty(6), _by_state(found, directions, turn, air, count)
+    for i in range(6):
+        wrench[i] = found[i, 0]
     _add_weight(body, turn, wrench, slopes)
     _take_inertia(body, x, wrench, slopes)
 
@@ -114,12 +117,13 @@ def rigid_rates(
     else:
         _accelerate(body, wrench, slopes, rates, jacobian)
     _write_attitude(x, rates, jacobian)
-    which = np.concatenate((body.states, np.arange(_SIZE, _SIZE + count)))
-    own_rates, own_jacobian = np.empty(which.size), np.empty((which.size, which.size))
-    for i in range(which.size):
-        own_rates[i] = rates[which[i]]
-        for j in range(which.size):
-            own_jacobian[i, j] = jacobian[which[i], which[j]]
+    size = states.size
+    own_rates, own_jacobian = np.empty(size), np.empty((size, size))
+    for i in range(size):
+        row = body.states[i] if i < own else _SIZE + i - own
+        own_rates[i] = rates[row]
+        for j in range(size):
+            own_jacobian[i, j] = jacobian[row, body.states[j] if j < own else _SIZE + j - own]
     return own_rates, own_jacobian
 
 

@@ -240,12 +240,9 @@ class PiecewiseEquations:
 
     def derivative_gap(self, u: FloatArray) -> float:
         """By how much a derivative that the model gives contradicts differences; 0 if it agrees."""
-        if not self.rhs.has_derivative:
-            return 0.0
         values, period = self.unpack(u)
-        n = values.shape[-1]
-        jacobians = self.rate_jacobians(u).reshape(-1, n, n)
-        return self.rhs.derivative_gap(self.times(period), values[:, 1:].reshape(-1, n), jacobians)
+        states = values[:, 1:].reshape(-1, values.shape[-1])
+        return self.rhs.derivative_gap(self.times(period), states)
 
     def jacobian(self, u: FloatArray) -> sp.csc_array:
         """Derivative of the residual."""
