@@ -65,16 +65,14 @@ def product_error(factors: FloatArray, errors: FloatArray) -> FloatArray:
 
     `errors` (M, n, n) are those of the factors; the round-off of each multiplication is added.
     """
-    m, n, _ = factors.shape
-    after = [np.eye(n)]
+    n = factors.shape[1]
+    after, before = [np.eye(n)], [np.eye(n)]
     for factor in factors[:0:-1]:
         after.append(after[-1] @ factor)
-    total, before = np.zeros((n, n)), np.eye(n)
-    for k in range(m):
-        local = errors[k] + n * _EPS * np.abs(factors[k])
-        total += np.abs(after[m - 1 - k]) @ local @ np.abs(before)
-        before = factors[k] @ before
-    return total
+    for factor in factors[:-1]:
+        before.append(factor @ before[-1])
+    local = errors + n * _EPS * np.abs(factors)
+    return np.asarray((np.abs(after[::-1]) @ local @ np.abs(before)).sum(axis=0))
 
 
 def eigenvalues_with_errors(

@@ -150,7 +150,7 @@ class RightHandSide:
             coarser = replace(self, model=self.model.coarser())
             apart = np.abs(coarser.jacobians(times, states) - jacobians)
             return np.asarray(own + _COARSER * apart.max(axis=2, keepdims=True))
-        direction = _direction(states)
+        direction = _direction(states.shape)
         # A step grows fourfold in truncation when it doubles, so that what differences of the
         # single step are off by is a third of what is seen.
         (seen,) = self._along(times, states, direction, (2 * _STEP,))
@@ -169,7 +169,7 @@ class RightHandSide:
         # Some instants: a derivative that is wrong is seldom so at a few of them alone.
         some = slice(None, None, max(1, len(times) // _INSTANTS_CHECKED))
         times, states = times[some], states[some]
-        direction = _direction(states)
+        direction = _direction(states.shape)
         claimed = np.einsum("kij,kj->ki", self.jacobians(times, states), direction)
         size = 1.0 + float(np.abs(claimed).max())
         rates = float(np.abs(self.rates(times, states)).max())
@@ -199,6 +199,10 @@ class RightHandSide:
         return np.swapaxes((ahead - back) / (2 * lengths), 0, 1)
 
 
-def _direction(states: FloatArray) -> FloatArray:
-    direction = np.random.default_rng(0).standard_normal(states.shape)
-    return np.asarray(direction / np.linalg.norm(direction, axis=1)[:, None])
+@lru_cache(maxsize=16)
+def _direction(shape: tuple[int, int]) -> FloatArray:
+    """Unit vectors (K, n) in general position."""
+    direction = np.random.default_rng(0).standard_normal(shape)
+    direction /= np.linalg.norm(direction, axis=1)[:, None]
+    direction.flags.writeable = False
+    return direction

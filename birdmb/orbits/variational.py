@@ -54,6 +54,9 @@ def _parts(rate_jacobians: FloatArray) -> int:
     """Into how many parts an interval is divided, by the modes that live through a period."""
     nodes = len(rate_jacobians)
     seen = rate_jacobians[:: max(1, nodes // _INSTANTS_SEEN)] / nodes
+    # No eigenvalue is larger than this.
+    if float((seen * seen).sum(axis=(1, 2)).max()) <= _LARGEST_STEP**2:
+        return 1
     rates = np.linalg.eigvals(seen)
     steps = np.where(nodes * rates.real > -_MOST_DECAY, np.abs(rates), 0.0)
     return int(np.clip(np.ceil(steps.max() / _LARGEST_STEP), 1, _MOST_PARTS))
