@@ -29,21 +29,21 @@ def orthogonal_wing(
     wing: WingArrays,
     bones: Chain,
     angles: ComplexArray,
-    stations: int,
+    stations: FloatArray,
     rounding: float,
     moving: IntArray,
-) -> tuple[PairedEdges, Array, Array, FloatArray]:
+) -> tuple[PairedEdges, Array, FloatArray, FloatArray]:
     """Orthogonal line of a wing at `angles` (A,) rad, whose imaginary parts carry rates.
 
-    Returns the paired edges, the leading edge's vertices (m, 3) m, the points (stations, 3) m from
-    which the span direction is taken and the twists (M, N, 6) per rate of each of the angles
-    `moving` (M,): velocities (m) of the N control points, every second station, and angular
-    velocities of their chords.
+    At `stations` (n,) with these parameters. Returns the paired edges, the leading edge's vertices
+    (m, 3) m, the points (n, 3) m from which the span direction is taken and the twists (M, N, 6)
+    per rate of each of the angles `moving` (M,): velocities (m) of the N control points, every
+    second station, and angular velocities of their chords.
     """
     leading, trailing = edges_along(wing, bones, angles)
     line = solved_line(leading, trailing, stations, rounding)
     pairs = moved_line(line, leading, trailing, rounding)
-    twist = np.empty((moving.size, stations // 2, 6))
+    twist = np.empty((moving.size, stations.size // 2, 6))
     for m in range(moving.size):
         edges = _edges_moved(wing, bones, angles, leading, trailing, moving[m])
         _write_control_twist(moved_line(line, edges[0], edges[1], rounding), twist[m])
@@ -53,7 +53,7 @@ def orthogonal_wing(
 @kernel
 def one_step_wing(
     wing: WingArrays, bones: Chain, angles: ComplexArray, stations: int, moving: IntArray
-) -> tuple[PairedEdges, Array, Array, FloatArray]:
+) -> tuple[PairedEdges, Array, FloatArray, FloatArray]:
     """As `orthogonal_wing` with the published line; see `one_step_line` about its direction."""
     leading, trailing = edges_along(wing, bones, angles)
     pairs, guide = one_step_line(leading, trailing, stations)
@@ -61,7 +61,7 @@ def one_step_wing(
     for m in range(moving.size):
         edges = _edges_moved(wing, bones, angles, leading, trailing, moving[m])
         _write_control_twist(one_step_line(edges[0], edges[1], stations)[0], twist[m])
-    return pairs, leading, guide, twist
+    return pairs, leading, guide.real.copy(), twist
 
 
 @kernel

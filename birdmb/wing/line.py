@@ -21,7 +21,7 @@ import numpy as np
 
 from birdmb._kernels import kernel
 from birdmb._typing import Array, ComplexArray, FloatArray
-from birdmb.wing.line_ends import EdgeEnds, LineEnds, edge_ends, line_ends
+from birdmb.wing.line_ends import LineEnds, edge_ends, line_ends
 from birdmb.wing.rounded import (
     RoundedPolyline,
     rounded_polyline,
@@ -78,6 +78,7 @@ class SolvedLine(NamedTuple):
     station: FloatArray  # (n,) parameters of the stations
     shift: FloatArray  # (n,)
     linear: Linearised
+    shoulder: float  # weight of the difference to one side there, see `LineEnds`
     converged: bool
 
 
@@ -112,7 +113,7 @@ def _newton_step(linear: Linearised, residual: FloatArray) -> None:
 
 
 @kernel
-def _on_line(leading: Array, trailing: Array, j: int, i: int) -> float:
+def _on_line(leading: Array, trailing: Array, j: int, i: int) -> complex:
     """A coordinate of the line's point of the j-th pair, or of its rate."""
     return 0.75 * leading[j, i] + 0.25 * trailing[j, i]
 
@@ -200,15 +201,13 @@ def _residual_rates(
 
 @kernel
 def _solve_shifts(
-    edges: tuple[RoundedPolyline, RoundedPolyline, EdgeEnds],
+    line: tuple[RoundedPolyline, RoundedPolyline, LineEnds],
     s: FloatArray,
     guess: FloatArray,
     tolerance: float,
 ) -> tuple[FloatArray, Linearised, bool]:
     """Damped Newton iteration for the shifts; also whether it reached the tolerance."""
-    leading, trailing, given = edges
     shift, n = guess, s.size
-    line = leading, trailing, line_ends(given, s[-1] - s[-2])
     vectors, values = np.empty((4, n, 3)), np.empty((5, n))
     linear = Linearised(
         vectors[0],
@@ -264,24 +263,29 @@ def _refined(shift: FloatArray, stations: int) -> FloatArray:
 
 @kernel
 def solved_line(
-    leading_edge: ComplexArray, trailing_edge: ComplexArray, stations: int, rounding: float
+    leading_edge: ComplexArray, trailing_edge: ComplexArray, s: FloatArray, rounding: float
 ) -> SolvedLine:
-    """Find the shifts that make the chords orthogonal; imaginary parts of the edges are ignored."""
+    """Find the shifts that make the chords orthogonal; imaginary parts of the edges are ignored.
+
+    At stations with the parameters `s` (n,), those of `station_parameters`.
+    """
     leading = rounded_polyline(leading_edge.real.copy(), rounding)
     trailing = rounded_polyline(trailing_edge.real.copy(), rounding)
-    edges = leading, trailing, edge_ends(leading, trailing)
+    edges = edge_ends(leading, trailing)
     # On many stations Newton's method from zero may end on a line that doubles back on itself; a
     # coarse line, refined, leads to the plain one.
-    n = min(COARSEST, stations)
+    n = min(COARSEST, s.size)
     shift = np.zeros(n)
-    while n < stations:
-        s = station_parameters(n)
-        shift, _, _ = _solve_shifts(edges, s, shift, COARSE_TOLERANCE)
-        n = min(FINER * n, stations)
+    while n < s.size:
+        few = station_parameters(n)
+        line = leading, trailing, line_ends(edges, few[-1] - few[-2])
+        shift, _, _ = _solve_shifts(line, few, shift, COARSE_TOLERANCE)
+        n = min(FINER * n, s.size)
         shift = _refined(shift, n)
-    s = station_parameters(n)
-    shift, linear, converged = _solve_shifts(edges, s, shift, SHIFT_TOLERANCE)
-    return SolvedLine(leading, trailing, s, shift, linear, converged)
+    ends = line_ends(edges, s[-1] - s[-2])
+    line = leading, trailing, ends
+    shift, linear, converged = _solve_shifts(line, s, shift, SHIFT_TOLERANCE)
+    return SolvedLine(leading, trailing, s, shift, linear, ends.shoulder.real, converged)
 
 
 @kernel
@@ -314,18 +318,21 @@ def moved_line(
 
 
 @kernel
-def line_to_follow(line: SolvedLine, pairs: PairedEdges) -> Array:
+def line_to_follow(line: SolvedLine, pairs: PairedEdges) -> FloatArray:
     """Points (n, 3) m whose differences are the direction of the line of `pairs`.
 
     They are its own but for the shoulder's where the chord there is given against the equation
     (`LineEnds.shoulder`): beside it the line is displaced, and its direction is that of what
     follows.
     """
-    points = 0.75 * pairs.leading + 0.25 * pairs.trailing
-    edges, last = edge_ends(line.leading, line.trailing), line.station[-1] - line.station[-2]
-    weight = line_ends(edges, last).shoulder
-    first = points[1] - points[0]
-    points[0] -= weight.real * (points[2] - points[1] - first)
+    n = line.shift.size
+    points = np.empty((n, 3))
+    for j in range(n):
+        for i in range(3):
+            points[j, i] = _on_line(pairs.leading, pairs.trailing, j, i).real
+    for i in range(3):
+        first = points[1, i] - points[0, i]
+        points[0, i] -= line.shoulder * (points[2, i] - points[1, i] - first)
     return points
 
 
@@ -337,5 +344,5 @@ def orthogonal_line(
 
     Complex vertices carry rates, see `moved_line`.
     """
-    line = solved_line(leading_edge, trailing_edge, stations, rounding)
+    line = solved_line(leading_edge, trailing_edge, station_parameters(stations), rounding)
     return moved_line(line, leading_edge, trailing_edge, rounding)

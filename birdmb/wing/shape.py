@@ -17,7 +17,7 @@ from birdmb.wing.arrays import WingArrays
 from birdmb.wing.chain import joint_chain
 from birdmb.wing.edges import COMPLEX_STEP
 from birdmb.wing.hinges import one_step_wing, orthogonal_wing
-from birdmb.wing.line import PairedEdges
+from birdmb.wing.line import PairedEdges, station_parameters
 from birdmb.wing.rotations import cross
 from birdmb.wing.rounded import leg_lengths, points, rounded_along, smooth_step
 
@@ -124,7 +124,8 @@ def wing_shape(
     try:
         hinges = np.arange(wing.segment.size, wing.offset.size)
         scheme = published or None
-        return shape_of_edges(wing, angles, rates, elements, rounding, scheme, hinges)[0]
+        stations = station_parameters(2 * elements)
+        return shape_of_edges(wing, angles, rates, stations, rounding, scheme, hinges)[0]
     except ZeroDivisionError:  # a leg or a chord without length
         return _no_shape(wing, elements)
 
@@ -134,21 +135,22 @@ def shape_of_edges(
     wing: WingArrays,
     angles: FloatArray,
     rates: FloatArray,
-    elements: int,
+    stations: FloatArray,
     rounding: float,
     published: bool | None,
     singly: IntArray,
 ) -> tuple[WingShape, FloatArray]:
     """As `wing_shape`, and twists (M, N, 6) per rate of each of the angles `singly` (M,).
 
+    `stations` (2 N,) are the `station_parameters` of the line.
     Velocities (m) of the control points and angular velocities of the chords, which end with the
     hinges'. Raises `ZeroDivisionError` where an edge or a chord has no length.
     Of `published`, `None` is false: numba then does not compile what only the other line needs.
     """
     moving = angles + 1j * COMPLEX_STEP * rates
-    bones, stations = joint_chain(wing, moving), 2 * elements
+    bones = joint_chain(wing, moving)
     if published is not None:
-        pairs, leading, guide, per_rate = one_step_wing(wing, bones, moving, stations, singly)
+        pairs, leading, guide, per_rate = one_step_wing(wing, bones, moving, stations.size, singly)
     else:
         pairs, leading, guide, per_rate = orthogonal_wing(
             wing, bones, moving, stations, rounding, singly
@@ -158,7 +160,7 @@ def shape_of_edges(
     forward = bones.rotation[0, :, 0].real
     # Written so that what is not finite does not pass.
     sound = bool(np.isfinite(shape.line).all() and np.isfinite(shape.velocity).all())
-    for e in range(elements):
+    for e in range(stations.size // 2):
         aft = 0.0
         for i in range(3):
             aft -= shape.chord_direction[e, i] * forward[i]
@@ -200,14 +202,20 @@ def _no_shape(wing: WingArrays, elements: int) -> WingShape:
 def _assemble(
     wing: WingArrays,
     pairs: PairedEdges,
-    guide: ComplexArray,
+    guide: FloatArray,
     edge: ComplexArray,
     hinge_twist: FloatArray,
     rounding: float,
     published: bool,
 ) -> WingShape:
     n = pairs.leading.shape[0] // 2
-    line = 0.75 * pairs.leading + 0.25 * pairs.trailing
+    line, velocity = np.empty((2 * n, 3)), np.empty((n, 3))
+    for j in range(2 * n):
+        for i in range(3):
+            place = 0.75 * pairs.leading[j, i] + 0.25 * pairs.trailing[j, i]
+            line[j, i] = place.real
+            if j % 2 == 0:
+                velocity[j // 2, i] = place.imag / COMPLEX_STEP
     chord = np.empty(n)
     chord_direction = np.empty((n, 3))
     chord_rate = np.empty((n, 3))
@@ -221,7 +229,7 @@ def _assemble(
             c[i], chord_rate[e, i] = across.real, across.imag / COMPLEX_STEP
             # Central differences, one-sided at the shoulder: stations crowd there like j^2, so that
             # it errs by no more.
-            along[i] = guide[j + 1, i].real - guide[max(j - 1, 0), i].real
+            along[i] = guide[j + 1, i] - guide[max(j - 1, 0), i]
         chord[e], step = _length(c), _length(along)
         for i in range(3):
             c[i] /= chord[e]
@@ -233,9 +241,8 @@ def _assemble(
                 up[i] /= size
         cross(up, c, span[e])
     arc = _leading_arc(pairs.leading.real.copy(), edge.real.copy())
-    velocity = line[0::2].imag / COMPLEX_STEP
     return WingShape(
-        line.real.copy(),
+        line,
         velocity,
         chord_direction,
         normal,

@@ -10,6 +10,7 @@ import numpy as np
 from birdmb._kernels import kernel
 from birdmb._typing import BoolArray, FloatArray, IntArray
 from birdmb.wing.arrays import WingArrays
+from birdmb.wing.line import station_parameters
 from birdmb.wing.shape import WingShape, shape_of_edges, wing_shape
 
 
@@ -92,6 +93,7 @@ def _made(
     moving: IntArray,
 ) -> StackedShapes:
     count, hinges = angles.shape[0], wing.offset.size - wing.segment.size
+    stations = station_parameters(2 * elements)
     stack = StackedShapes(
         np.empty((count, 2 * elements, 3)),
         np.empty((count, elements, 3)),
@@ -110,7 +112,7 @@ def _made(
     )
     for k in range(count):
         shape, per_rate = shape_of_edges(
-            wing, angles[k], rates[k], elements, rounding, published, moving
+            wing, angles[k], rates[k], stations, rounding, published, moving
         )
         stack.velocity_per_rate[k] = per_rate[:, :, :3]
         stack.line[k] = shape.line
