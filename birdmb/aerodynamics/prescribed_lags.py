@@ -5,7 +5,6 @@ Beside `birdmb.aerodynamics.prescribed`, whose wings these are.
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -29,7 +28,7 @@ from birdmb.aerodynamics.unsteady_circulation import (
     unsteady_circulations,
 )
 from birdmb.aerodynamics.unsteady_loads import SideFlow, side_flow, side_wrenches
-from birdmb.aerodynamics.wake_lags import WakeLags, no_wake_lags
+from birdmb.aerodynamics.wake_lags import WakeLags
 from birdmb.wing.stacked import NearShapes, shape_at
 
 
@@ -43,13 +42,6 @@ class LagTable(NamedTuple):
     left: SectionMotion
     inertia: FloatArray  # (P, 6, 6) kg, kg m and kg m2, of the air about both wings
     lags: WakeLags
-
-
-# Arrays without elements cannot change: models share them.
-@lru_cache(maxsize=64)
-def no_lags(elements: int) -> LagTable:
-    """The table of a wing of so many elements whose air has no memory: of no phase."""
-    return _empty(0, elements, 1, no_wake_lags(elements))
 
 
 def every_second_lag(table: LagTable) -> LagTable:

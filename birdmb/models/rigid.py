@@ -25,7 +25,6 @@ from birdmb.aerodynamics.prescribed_lags import (
     LagTable,
     every_second_lag,
     lag_table,
-    no_lags,
 )
 from birdmb.arguments import checked
 from birdmb.errors import StateError
@@ -64,7 +63,15 @@ class RigidTable(NamedTuple):
     right: PrescribedWing
     left: PrescribedWing
     wakes: WakeTable
-    lags: LagTable
+    lags: LagTable | None
+
+    @property
+    def for_kernels(
+        self,
+    ) -> tuple[PrescribedWing, PrescribedWing | None, WakeTable, LagTable | None]:
+        """The same without a left wing that is like the right one."""
+        left = None if self.left is self.right else self.left
+        return self.right, left, self.wakes, self.lags
 
 
 def rigid_body(bird: Bird, motion: Motion) -> RigidBody:
@@ -139,10 +146,11 @@ class RigidModel(BirdModel):
         fine = self._table(0.0, period, steps)
         right = every_second(fine.right)
         left = right if fine.left is fine.right else every_second(fine.left)
-        coarse = RigidTable(right, left, self._wakes(right, left), every_second_lag(fine.lags))
+        lags = None if fine.lags is None else every_second_lag(fine.lags)
+        coarse = RigidTable(right, left, self._wakes(right, left), lags)
         start, still = self.initial_guess(), np.zeros((2 * steps + 1, 3))
         ends = [
-            integrate_rigid(*table, start, period / n, air, *self._constants)[0][-1]
+            integrate_rigid(*table.for_kernels, start, period / n, air, *self._constants)[0][-1]
             for table, n, air in ((fine, steps, still), (coarse, steps // 2, still[::2].copy()))
         ]
         return float(np.abs((ends[0] - ends[1]) / self.state_scale).max()) / (2**_ORDER - 1)
@@ -183,7 +191,9 @@ class RigidModel(BirdModel):
         self._refuse_upright(times, states)
         air = self.air_velocities(times)
         with overflow_told(self.bird, "the force of the air"):
-            return rates_along(*table, phase, states, air, *self._constants, slopes_wanted)
+            return rates_along(
+                *table.for_kernels, phase, states, air, *self._constants, slopes_wanted
+            )
 
     def flow(self, x0: npt.ArrayLike, t0: float, t1: float) -> FloatArray:
         """State (n,) at t1 (s) of the flight through x0 (n,) at t0; raises `StateError`."""
@@ -275,7 +285,9 @@ class RigidModel(BirdModel):
             self.air_velocities(np.linspace(t0, t1, 2 * steps + 1)),
         )
         with overflow_told(self.bird, f"the flight from t = {t0:.4g} to {t1:.4g} s"):
-            found = integrate_rigid(*table, start, (t1 - t0) / steps, gusts, *self._constants)
+            found = integrate_rigid(
+                *table.for_kernels, start, (t1 - t0) / steps, gusts, *self._constants
+            )
         if not np.isfinite(found[0]).all():
             raise StateError(
                 f"{self.bird.name}: the flight from t = {t0:.4g} s diverged before "
@@ -333,11 +345,13 @@ class RigidModel(BirdModel):
             return no_wakes()
         return odd_wakes(right) if left is right else pair_wakes(right, left)
 
-    def _lags(self, times: FloatArray, right: PrescribedWing, left: PrescribedWing) -> LagTable:
-        """What the lags of air that remembers need."""
+    def _lags(
+        self, times: FloatArray, right: PrescribedWing, left: PrescribedWing
+    ) -> LagTable | None:
+        """What the lags of air that remembers need; none of other air."""
         lags = self.wake.lags
         if not self.wake.count:
-            return no_lags(len(lags.spread))
+            return None
         near = self._near_shapes(self.wing, times, right)
         near_left = near if left is right else self._near_shapes(self.left_wing, times, left)
         return lag_table(right, left, near, near_left, lags, self.is_mirrored, self.aero.density)

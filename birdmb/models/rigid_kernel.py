@@ -68,9 +68,9 @@ def _turn(phi: float, theta: float, turn: FloatArray) -> None:
 @kernel
 def rigid_rates(
     wing: PrescribedWing,
-    left: PrescribedWing,
+    left: PrescribedWing | None,
     wakes: WakeTable,
-    lags: LagTable,
+    lags: LagTable | None,
     k: int,
     states: FloatArray,
     air: FloatArray,
@@ -81,8 +81,13 @@ def rigid_rates(
     """Rates (n,) of the states (n,) at the k-th tabulated phase, and their Jacobian (n, n).
 
     `air` (3,) m/s is the velocity of the air along the heading, to the right of it and down. Of the
-    Jacobian the part that the air makes is left out unless `slopes_wanted`.
+    Jacobian the part that the air makes is left out unless `slopes_wanted`. Without a `left` wing
+    it is like the other one, and without `lags` the air has no memory: numba then does not compile
+    what only these need, and is handed fewer arrays.
     """
+    other = wing
+    if left is not None:
+        other = left
     own = body.states.size
     x, count = np.zeros(_SIZE), states.size - own
     for i in range(own):
@@ -95,12 +100,12 @@ def rigid_rates(
     twist[3], twist[4], twist[5] = x[3], x[4], x[5]
     directions = body.directions if slopes_wanted else body.directions[:0]
     lag_rates = np.empty((0, 1))
-    if count > 0:
+    if lags is not None:
         found, lag_rates = lagged_loads(
-            wing, left, lags, k, aero, twist, directions, states[own:], slopes_wanted
+            wing, other, lags, k, aero, twist, directions, states[own:], slopes_wanted
         )
     elif body.directions.size == 6:
-        found = free_loads(wing, left, wakes, k, aero, twist, directions)
+        found = free_loads(wing, other, wakes, k, aero, twist, directions)
     else:
         found = symmetric_loads(wing, k, aero, twist, directions)
     wrench, slopes = np.empty(6), _by_state(found, directions, turn, air, count)
@@ -110,7 +115,7 @@ def rigid_rates(
     _take_inertia(body, x, wrench, slopes)
 
     rates, jacobian = np.zeros(_SIZE + count), np.zeros((_SIZE + count, _SIZE + count))
-    if count > 0:
+    if lags is not None:
         _accelerate_with_air(body, lags.inertia[k], x, wrench, slopes, rates, jacobian)
         rates[_SIZE:] = lag_rates[:, 0]
         jacobian[_SIZE:] = _by_state(lag_rates, directions, turn, air, count)
@@ -265,9 +270,9 @@ def _write_attitude(x: FloatArray, rates: FloatArray, jacobian: FloatArray) -> N
 @kernel
 def rates_along(
     wing: PrescribedWing,
-    left: PrescribedWing,
+    left: PrescribedWing | None,
     wakes: WakeTable,
-    lags: LagTable,
+    lags: LagTable | None,
     phase: IntArray,
     states: FloatArray,
     air: FloatArray,
@@ -292,9 +297,9 @@ def rates_along(
 @kernel
 def integrate_rigid(
     wing: PrescribedWing,
-    left: PrescribedWing,
+    left: PrescribedWing | None,
     wakes: WakeTable,
-    lags: LagTable,
+    lags: LagTable | None,
     x0: FloatArray,
     step: float,
     air: FloatArray,
