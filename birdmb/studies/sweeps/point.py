@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from birdmb._typing import FloatArray
 from birdmb.errors import BirdmbError, OrbitError, StateError
 from birdmb.models import FlightCycle, FlightModel
 from birdmb.orbits import NotSmoothError, find_limit_cycle
@@ -22,7 +23,7 @@ from birdmb.studies.cycles import ModelFactory, path_for_search, shot_near
 from birdmb.studies.sweeps.sensitivity import sensitivities
 from birdmb.studies.sweeps.settings import Trimming
 from birdmb.studies.sweeps.sheets import on_sheet
-from birdmb.studies.sweeps.tasks import Guess, Outcome, Task
+from birdmb.studies.sweeps.tasks import Outcome, Task
 from birdmb.studies.trim import TrimGuess, trim_flight
 from birdmb.studies.validity import assess_validity
 from birdmb.threads import one_thread
@@ -90,29 +91,30 @@ def _found(task: Task) -> tuple[FlightCycle, str]:
     # A varied mode of a joint may have given the neighbour other states.
     if guess is None or guess.state_names != model.state_names:
         return find_limit_cycle(model, **search), COLD
+    orbit, _ = guess.moved_to(task.values, {})
     if guess.flight["method"] == "collocation":
         with suppress(NotSmoothError):
-            return _collocated_near(model, guess, search)
+            return _collocated_near(model, guess.place, orbit, search)
     else:
         with suppress(OrbitError, StateError):
             # Of several segments only the product is kept.
             known = [guess.flight["monodromy"]] if search["segments"] in {None, 1} else None
-            found = shot_near(model, guess.orbit, known, search)
+            found = shot_near(model, orbit, known, search)
             return found, guess.place
     return find_limit_cycle(model, **search), COLD
 
 
 def _collocated_near(
-    model: FlightModel, guess: Guess, search: Mapping[str, Any]
+    model: FlightModel, place: str, orbit: FloatArray, search: Mapping[str, Any]
 ) -> tuple[FlightCycle, str]:
     """The cycle of a model by collocation alone, and what it was found from.
 
-    Beside a smooth orbit there is none that only shooting would find, and its vain search takes a
-    hundred times as long.
+    Beside a smooth orbit, as the one (K, n) is that a neighbour's `place` leads to, there is none
+    that only shooting would find, and its vain search takes a hundred times as long.
     """
     collocation = {**search, "method": "collocation"}
     try:
-        found, start = find_limit_cycle(model, guess.orbit, **collocation), guess.place
+        found, start = find_limit_cycle(model, orbit, **collocation), place
     except NotSmoothError:
         raise
     except (OrbitError, StateError):
@@ -123,7 +125,8 @@ def _collocated_near(
 def _trimmed(task: Task, trimming: Trimming) -> tuple[FlightCycle, dict[str, float], str]:
     guess, near = task.guess, None
     if guess is not None:
-        near = TrimGuess(guess.flight["trimmed"], guess.orbit)
+        orbit, trimmed = guess.moved_to(task.values, trimming.parameters)
+        near = TrimGuess(trimmed, orbit)
     trim = trim_flight(
         task.bird.with_values(task.values),
         trimming.parameters,

@@ -19,6 +19,9 @@ KEPT_FOR_NEIGHBOURS = (
     *("x0", "monodromy", "trimmed", "method", "orbit", "state_scale", "sensitivity"),
 )
 
+# In units of the state scale and of the distance between bounds.
+_FURTHEST = 0.2
+
 
 @dataclass(frozen=True)
 class Guess:
@@ -45,6 +48,25 @@ class Guess:
         if self.flight["orbit"] is None:
             return np.array([list(self.flight["x0"].values())])
         return np.array(self.flight["orbit"]) * self.flight["state_scale"]
+
+    def moved_to(
+        self, values: Mapping[str, Value], bounds: Mapping[str, tuple[float, float]]
+    ) -> tuple[FloatArray, dict[str, float]]:
+        """The orbit, and what it is trimmed by within `bounds`, at other values of the parameters.
+
+        To first order: the whole orbit moves as its first state does. Where the flight would change
+        by much it stays the neighbour's: the derivatives of one beside a fold tell of nothing else.
+        """
+        size, trimmed = len(self.state_names), dict(self.flight["trimmed"])
+        change = np.zeros(size + len(bounds))
+        for name, by_value in self.flight["sensitivity"].items():
+            if values[name] != self.values[name]:
+                change += np.array(by_value) * (float(values[name]) - float(self.values[name]))
+        if np.abs(change).max() > _FURTHEST:
+            return self.orbit, trimmed
+        for (name, (low, high)), share in zip(bounds.items(), change[size:], strict=True):
+            trimmed[name] = float(np.clip(trimmed[name] + share * (high - low), low, high))
+        return self.orbit + change[:size] * np.array(self.flight["state_scale"]), trimmed
 
 
 @dataclass(frozen=True)
