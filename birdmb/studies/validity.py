@@ -374,16 +374,15 @@ def _excess(
     # The end of the beat is its beginning: it counts once.
     area = data["area"].values[:-1]
     row, element = np.unravel_index(np.argmax(badness[:-1]), badness[:-1].shape)
-    at = data.isel(time=int(row), element=int(element))
     return ValidityViolation(
         quantity=quantity,
         value=float(value),
         limit=limit,
         element=int(element),
-        span_position=float(at["span_position"]),
-        span_fraction=float(at["span_fraction"]),
-        time=float(at["time"]),
-        phase=float(at["phase"]),
+        span_position=float(data["span_position"].values[row, element]),
+        span_fraction=float(data["span_fraction"].values[row, element]),
+        time=float(data["time"].values[row]),
+        phase=float(data["phase"].values[row]),
         share=float((area * beyond[:-1]).sum() / area.sum()),
         side=data.attrs["side"],
     )

@@ -87,7 +87,11 @@ def _innermost(wing: WingArrays, angles: ComplexArray) -> FloatArray:
     least = np.empty(angles.shape[0])
     for k in range(least.size):
         leading, trailing = wing_edges(wing, angles[k])
-        least[k] = min(np.min(leading[:, 1].real), np.min(trailing[:, 1].real))
+        least[k] = leading[0, 1].real
+        for vertex in range(leading.shape[0]):
+            least[k] = min(least[k], leading[vertex, 1].real)
+        for vertex in range(trailing.shape[0]):
+            least[k] = min(least[k], trailing[vertex, 1].real)
     return least
 
 
