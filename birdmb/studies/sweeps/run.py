@@ -70,11 +70,11 @@ def sweep(
 
     Each point starts from the flight found at a fixed neighbour, or, if that has none, at the
     nearest of the neighbour's own predecessors that has, moved to first order where that is not
-        far; where this fails, from the model's own guess. Every finished point is stored at once;
+    far; where this fails, from the model's own guess. Every finished point is stored at once;
     called again with the same arguments, `sweep` computes what is missing. Values may be appended
     to a parameter's; results depend, to the last bit, on neither executor, workers, interruptions
-    nor the order in which values were appended.
-    Where several cycles exist, the order of the values decides which is followed.
+    nor the order in which values were appended. Where several cycles exist, the order of the values
+    decides which is followed.
 
     A script must call it under `if __name__ == "__main__":`, for the workers import the script.
 
