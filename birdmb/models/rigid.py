@@ -307,7 +307,7 @@ class RigidModel(BirdModel):
     def _table_with(self, times: FloatArray) -> tuple[RigidTable, IntArray]:
         """A table that holds the wing at `times` (K,), and at which of its phases they are."""
         known, table = self._latest
-        if table is not None:
+        if table is not None and known.size:
             phase = np.minimum(np.searchsorted(known, times), known.size - 1)
             if (known[phase] == times).all():
                 return table, phase

@@ -227,3 +227,14 @@ def test_guess_along_leaves_hinges_at_rest():
     rest = [feather.hinge.rest for feather in bird.hinged_feathers]
     np.testing.assert_array_equal(guess[:, -2 * len(rest) :: 2], np.tile(rest, (2, 1)))
     assert not guess[:, -2 * len(rest) + 1 :: 2].any()
+
+
+def test_rigid_rates_do_not_depend_on_the_instants_asked_for_before(ibis):
+    """None, many, part of them in any order and as often as one likes, others."""
+    model = birdmb.RigidModel(coarse(ibis))
+    times = np.linspace(0.0, 0.24, 9)
+    for asked in (times[:0], times, times[::-3], np.repeat(times[2:5], 2), times[:4] + 0.01):
+        states = np.array(STATE) + 0.1 * np.arange(asked.size)[:, None]
+        alone = [birdmb.RigidModel(model.bird).rhs(*at) for at in zip(asked, states, strict=True)]
+        found = model.rates(asked, states)
+        np.testing.assert_allclose(found, np.reshape(alone, (-1, 4)), rtol=1e-10)
