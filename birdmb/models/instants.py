@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -12,6 +11,7 @@ import numpy as np
 from birdmb._typing import FloatArray
 from birdmb.aerodynamics.prescribed import driver_motion_along
 from birdmb.models.failures import lifting_line_lost
+from birdmb.models.kept import KeptByTimes
 from birdmb.topology import Bird
 from birdmb.wing.arrays import WingArrays
 from birdmb.wing.stacked import NearShapes, StackedShapes, wing_shapes
@@ -30,27 +30,10 @@ class StackedInstants(NamedTuple):
     shapes: NearShapes | None  # with the joints at zero that turn the wing, if known
 
 
-@dataclass
-class _Kept:
-    """What was made so far."""
-
-    stacks: dict[bytes, StackedInstants] = field(default_factory=dict)  # by the times' bytes
-    count: int = 0
-
-    def keep(self, times: FloatArray, made: StackedInstants) -> StackedInstants:
-        """Keep a stack, in place of all others where they become too many."""
-        self.count += times.size
-        if self.count > _INSTANTS_KEPT:
-            self.stacks.clear()
-            self.count = times.size
-        self.stacks[times.tobytes()] = made
-        return made
-
-
 @lru_cache(maxsize=4)
-def _kept(_key: tuple[object, ...]) -> _Kept:
+def _kept(_key: tuple[object, ...]) -> KeptByTimes[StackedInstants]:
     """Kept by all birds with the same wing and drivers."""
-    return _Kept()
+    return KeptByTimes(_INSTANTS_KEPT)
 
 
 class Instants:
@@ -87,12 +70,12 @@ class Instants:
 
     def stacked(self, times: FloatArray) -> StackedInstants:
         """What `times` (P,) s determine; raises `StateError` if no lifting line fits the wing."""
-        found = self._kept.stacks.get(times.tobytes())
-        if found is None:
-            angles, rates, accelerations = driver_motion_along(self._wing, times)
-            shapes = None if self._shaping else self.shapes(times, angles, rates, accelerations)
-            found = self._kept.keep(times, StackedInstants(angles, rates, accelerations, shapes))
-        return found
+        return self._kept.get(times, self._made)
+
+    def _made(self, times: FloatArray) -> StackedInstants:
+        angles, rates, accelerations = driver_motion_along(self._wing, times)
+        shapes = None if self._shaping else self.shapes(times, angles, rates, accelerations)
+        return StackedInstants(angles, rates, accelerations, shapes)
 
     def shapes(
         self, times: FloatArray, angles: FloatArray, rates: FloatArray, accelerations: FloatArray

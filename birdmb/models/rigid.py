@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -42,6 +42,7 @@ from birdmb.models.instants import NEARBY
 from birdmb.models.motion import PLANAR, FlightMotionName, Mirror, Motion, motion_named
 from birdmb.models.refusals import refuse_asymmetric, require_inertia
 from birdmb.models.rigid_kernel import RigidBody, integrate_rigid, rates_along
+from birdmb.models.rigid_tables import RigidTable, RigidTables
 from birdmb.models.starts import INCIDENCES, PATH_ANGLES, SPEEDS, steady_states, steady_turns
 from birdmb.models.trim import mean_trim
 from birdmb.models.wake_states import wake_states
@@ -53,25 +54,7 @@ from birdmb.wing.stacked import NearShapes, StackedShapes, wing_shapes
 _ORDER = 4
 _TOLERANCE = 1e-6
 _MOST_STEPS = 1000
-_PHASES_KEPT = 20_000  # at some 30 kB each
 _PHASES = 16  # enough for means over a beat, to guess from
-
-
-class RigidTable(NamedTuple):
-    """Both wings at some phases, the left one mirrored, and what some motions and air need."""
-
-    right: PrescribedWing
-    left: PrescribedWing
-    wakes: WakeTable
-    lags: LagTable | None
-
-    @property
-    def for_kernels(
-        self,
-    ) -> tuple[PrescribedWing, PrescribedWing | None, WakeTable, LagTable | None]:
-        """The same without a left wing that is like the right one."""
-        left = None if self.left is self.right else self.left
-        return self.right, left, self.wakes, self.lags
 
 
 def rigid_body(bird: Bird, motion: Motion) -> RigidBody:
@@ -122,9 +105,7 @@ class RigidModel(BirdModel):
         self.state_names = self.motion.states + self.wake.names
         self.state_units = self.motion.units + self.wake.units
         self._constants = (self.aero, rigid_body(bird, self.motion))
-        self._phases_kept = 0
-        self._tables: dict[tuple[float, float, int] | bytes, RigidTable] = {}
-        self._latest: tuple[FloatArray, RigidTable | None] = np.empty(0), None
+        self._tables = RigidTables()
 
     @cached_property
     def steps_per_beat(self) -> int:
@@ -173,11 +154,15 @@ class RigidModel(BirdModel):
         Raises:
             StateError: the wing has no loads, or the motion is beyond floating point.
         """
-        return self._along(*self._table_with(times), times, states, slopes_wanted=False)[0]
+        return self._along(
+            *self._tables.holding(times, self._tabulated), times, states, slopes_wanted=False
+        )[0]
 
     def rate_jacobians(self, times: FloatArray, states: FloatArray) -> FloatArray:
         """Derivatives (K, n, n) of the rates, rows, by the states, columns; exact; as `rates`."""
-        return self._along(*self._table_with(times), times, states, slopes_wanted=True)[1]
+        return self._along(
+            *self._tables.holding(times, self._tabulated), times, states, slopes_wanted=True
+        )[1]
 
     def _along(
         self,
@@ -235,7 +220,7 @@ class RigidModel(BirdModel):
             return motion
         own = motion.shape[1]
         states = np.hstack([motion, np.tile(self.wake.attached, (len(motion), 1))])
-        table, phase = self._table_for(times)
+        table, phase = self._tables.at(times, self._tabulated)
         rates, slopes = self._along(table, phase, times, states, slopes_wanted=True)
         states[:, own:] = self.wake.settled(rates[:, own:], slopes[:, own:, own:])
         return states
@@ -266,7 +251,7 @@ class RigidModel(BirdModel):
         return self._trim(np.linspace(0.0, self.bird.period, _PHASES + 1)[:-1])
 
     def _trim(self, times: FloatArray) -> FloatArray:
-        table, _ = self._table_for(times)
+        table, _ = self._tables.at(times, self._tabulated)
         with overflow_told(self.bird, "the flight in which the mean loads balance"):
             return self._state_of(mean_trim(self.bird, table.right, self.aero))
 
@@ -300,39 +285,9 @@ class RigidModel(BirdModel):
         return ", ".join(f"{n} = {v:.4g}" for n, v in zip(self.state_names, x, strict=True))
 
     def _table(self, t0: float, duration: float, steps: int) -> RigidTable:
-        """The wing at every half step from t0 on; kept, for flows ask for the same ones again."""
+        """The wing at every half step from t0 on."""
         times = t0 + duration * np.arange(2 * steps + 1) / max(2 * steps, 1)
-        return self._kept((t0, duration, steps), times)
-
-    def _table_with(self, times: FloatArray) -> tuple[RigidTable, IntArray]:
-        """A table that holds the wing at `times` (K,), and at which of its phases they are."""
-        known, table = self._latest
-        if table is not None and known.size:
-            phase = np.minimum(np.searchsorted(known, times), known.size - 1)
-            if (known[phase] == times).all():
-                return table, phase
-        return self._table_for(times)
-
-    def _table_for(self, times: FloatArray) -> tuple[RigidTable, IntArray]:
-        """The wing at the distinct ones of `times` (K,), and which of them each is; kept too."""
-        if (times[1:] > times[:-1]).all():
-            distinct, phase = times.copy(), np.arange(times.size)
-        else:
-            distinct, phase = np.unique(times, return_inverse=True)
-        table = self._kept(distinct.tobytes(), distinct)
-        self._latest = distinct, table
-        return table, phase
-
-    def _kept(self, key: tuple[float, float, int] | bytes, times: FloatArray) -> RigidTable:
-        table = self._tables.get(key)
-        if table is None:
-            table = self._tabulated(times)
-            self._phases_kept += times.size
-            if self._phases_kept > _PHASES_KEPT:
-                self._tables.clear()
-                self._phases_kept = times.size
-            self._tables[key] = table
-        return table
+        return self._tables.of(times, self._tabulated)
 
     def _tabulated(self, times: FloatArray) -> RigidTable:
         right = self.wing_at(times)
@@ -380,7 +335,7 @@ class RigidModel(BirdModel):
         return Mirror(order, of_body.signs)
 
     def _shapes_along(self, times: FloatArray, _angles: FloatArray, _rates: FloatArray) -> Shapes:
-        table, phase = self._table_for(times)
+        table, phase = self._tables.at(times, self._tabulated)
         distinct = np.unique(times) if phase.size else times
         right = self._near_shapes(self.wing, distinct, table.right)
         left = right

@@ -38,16 +38,6 @@ _SHARP = 1e-3
 Batched = Callable[[FloatArray, FloatArray], FloatArray]
 
 
-def batched_rates(model: HasRates | HasRhs) -> Batched:
-    """Function of times (K,) and states (K, n) that returns the model's rates (K, n)."""
-    if isinstance(model, HasRates):
-        return model.rates
-    rhs = model.rhs
-    return lambda times, x: np.array(
-        [rhs(*at) for at in zip(times.tolist(), x, strict=True)], float
-    )
-
-
 # Protocols are slow to check, and one class of models has right-hand sides by the thousand.
 @lru_cache
 def _class_has(kind: type, protocol: Any) -> bool:
@@ -58,6 +48,18 @@ def _has(model: object, protocol: Any) -> bool:
     """Whether a model has the methods of a protocol, by its class or by itself."""
     kind: Any = type(model)
     return _class_has(kind, protocol) or isinstance(model, protocol)
+
+
+def batched_rates(model: HasRates | HasRhs) -> Batched:
+    """Function of times (K,) and states (K, n) that returns the model's rates (K, n)."""
+    either: Any = model
+    if _has(model, HasRates):
+        rates: Batched = either.rates
+        return rates
+    rhs = either.rhs
+    return lambda times, x: np.array(
+        [rhs(*at) for at in zip(times.tolist(), x, strict=True)], float
+    )
 
 
 @dataclass(frozen=True)
@@ -87,8 +89,7 @@ class RightHandSide:
 
     @cached_property
     def _rates(self) -> Batched:
-        model = self.model
-        return model.rates if _has(model, HasRates) else batched_rates(model)
+        return batched_rates(self.model)
 
     @cached_property
     def _jacobians(self) -> Batched:

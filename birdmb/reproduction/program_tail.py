@@ -12,7 +12,7 @@ from birdmb.aerodynamics.prescribed import PrescribedWing, at_phase, symmetric_l
 from birdmb.aerodynamics.tail import tail_force, tail_influence, tail_surface
 from birdmb.aerodynamics.twist_loads import wing_flow
 from birdmb.models import RigidModel
-from birdmb.models.rigid import RigidTable
+from birdmb.models.rigid_tables import RigidTable
 from birdmb.topology import Bird
 
 _FILAMENTS = 3  # of the 17 that leave 16 elements

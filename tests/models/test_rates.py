@@ -1,5 +1,8 @@
 """Rates of the multibody bird at many instants in one call."""
 
+import gc
+import weakref
+
 import numpy as np
 import pytest
 
@@ -238,3 +241,30 @@ def test_rigid_rates_do_not_depend_on_the_instants_asked_for_before(ibis):
         alone = [birdmb.RigidModel(model.bird).rhs(*at) for at in zip(asked, states, strict=True)]
         found = model.rates(asked, states)
         np.testing.assert_allclose(found, np.reshape(alone, (-1, 4)), rtol=1e-10)
+
+
+@pytest.mark.parametrize("kind", [birdmb.RigidModel, birdmb.MultibodyModel])
+def test_birds_repeat_after_whole_beats_of_still_air(ibis, kind):
+    model = kind(coarse(ibis))
+    period, times = model.period, np.array([0.03, 0.11])
+    states = np.tile(STATE, (2, 1))
+    for beats in (1.0, 3.0):
+        assert model.repeats_after(beats * period)
+        again = model.rates(times + beats * period, states)
+        np.testing.assert_allclose(again, model.rates(times, states), rtol=1e-9)
+    for beats in (0.5, 1.5, 1.0 + 1e-9):
+        assert not model.repeats_after(beats * period)
+    assert not model.in_gust(GUST).repeats_after(period)
+
+
+def test_a_rigid_model_ends_with_its_last_use(ibis):
+    """Its tables are large, and studies make thousands of models."""
+    model = birdmb.RigidModel(coarse(ibis))
+    model.rates(np.array([0.1]), np.array([STATE]))
+    watched = weakref.ref(model)
+    gc.disable()
+    try:
+        del model
+        assert watched() is None
+    finally:
+        gc.enable()

@@ -101,7 +101,7 @@ def test_steady_flight_is_that_of_air_without_memory(ibis_tail):
     rates = remembering.rates(TIMES[:1], states)[0, :4]
     expected = forgetful.rates(TIMES[:1], body)[0]
     mass = np.diag([gliding.body.mass, gliding.body.mass, gliding.body.inertia_yy])
-    table, _ = remembering._table_for(TIMES[:1])
+    table, _ = remembering._tables.at(TIMES[:1], remembering._tabulated)
     apparent = table.lags.inertia[0][np.ix_([0, 2, 4], [0, 2, 4])]
     np.testing.assert_allclose((mass + apparent) @ rates[:3], mass @ expected[:3], rtol=1e-9)
 
